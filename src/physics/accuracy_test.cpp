@@ -149,8 +149,8 @@ TEST(AccuracySettings, MoreAccuracyIsMoreTruth) {
                  standard_left = standard.off(Trial(strictly(named("standard"))));
     tell("fast: error left by the tolerances", fast_left);
     tell("standard: error left by the tolerances", standard_left);
-    // Newton's method mostly ends far below its tolerance, whichever that is.
-    EXPECT_LT(fast_left, 1e-7);
+    EXPECT_LT(fast_left, 1e-4);  // sweeps alone; about as much as softness makes
+    // Newton's method mostly ends far below its tolerance.
     EXPECT_LT(standard_left, 2e-9);
     tell("standard: error by softness", standard.off(hard));
     tell("high: error by softness", high.off(hard));
@@ -159,6 +159,38 @@ TEST(AccuracySettings, MoreAccuracyIsMoreTruth) {
     for (const Trial* trial : {&fast, &standard, &high}) tell("Newton iterations a tick", trial->iterations);
     EXPECT_LT(fast.iterations, 1.2 * standard.iterations);  // it gains where many touch
     EXPECT_LT(standard.iterations, high.iterations);
+}
+
+/// Bodies fly at each other with nothing else around: whatever a setting leaves of the contacts' laws,
+/// momentum stays, and energy is not gained.
+TEST(AccuracySettings, PilesKeepMomentumAtEverySetting) {
+    for (const char* setting : {"fast", "standard", "high"}) {
+        World world = empty_world(2e-3, {});
+        world.accuracy.push_back(named(setting));
+        for (int i = 0; i < 27; ++i) {
+            const Vec3 at{0.22 * (i % 3 - 1), 0.23 * (i / 3 % 3 - 1), 0.21 * (i / 9 - 1)};
+            const Pose X{at, from_rpy(0.1 * i, 0.2, 0.05 * i)};
+            place(world, solid_box(1.0 + i % 3, {0.2, 0.2, 0.2}, surface(0.6)), "box_" + std::to_string(i),
+                  X);
+        }
+        Simulation sim(world);
+        for (std::size_t i = 0; i < sim.states.size(); ++i) {
+            const Pose X = base_pose(sim.states[i]);
+            const Vec3 v = rotate(conjugate(X.q), X.p * -3.0);
+            sim.states[i].v[3] = v.x, sim.states[i].v[4] = v.y, sim.states[i].v[5] = v.z;
+        }
+        const Momentum before = sim.momentum();
+        const double energy = sim.energy();
+        int contacts = 0;
+        for (int i = 0; i < 200; ++i) contacts += sim.step().contacts;
+        const Momentum after = sim.momentum();
+        EXPECT_GT(contacts, 400) << setting;
+        EXPECT_LT(norm(after.linear - before.linear), 1e-10) << setting;
+        EXPECT_LT(norm(after.angular - before.angular), 1e-6) << setting;
+        EXPECT_LT(sim.energy(), energy) << setting;
+        tell(std::string(setting) + ": linear momentum off by", norm(after.linear - before.linear));
+        tell(std::string(setting) + ": angular momentum off by", norm(after.angular - before.angular));
+    }
 }
 
 TEST(AccuracySettings, ABrakedCarOnASlopeStandsAtEverySetting) {

@@ -7,6 +7,7 @@
 #include "physics/bodies/body_points.h"
 #include "physics/contact/friction_bounds.h"
 #include "physics/solver/newton.h"
+#include "physics/solver/sweeps_alone.h"
 
 namespace roboss {
 namespace {
@@ -16,6 +17,8 @@ namespace {
 constexpr double kBoundsFrom = 1e-2;
 constexpr double kSticking = 0.998;  // of the squared friction bound: beyond, a sweep says that it slides
 constexpr double kRounding = newton::kRounding<double>;
+
+constexpr int kSweepsAlone = 40;  // at most, where no step of Newton's method follows
 
 /// Impulses spread through few bodies a sweep. Twelve sweeps cost about as much as one iteration.
 int most_sweeps(std::size_t bodies) {
@@ -29,7 +32,10 @@ bool BodySolver::solve(const BodyPart& part, std::vector<double>& v, SolveReport
     position_ = part.problem.position;
     iterations_ = 0;
     take(part, v);
-    const bool balances = (position_ && displace()) || iterate(part.problem.accuracy);
+    const bool by_sweeps = !position_ && part.members.size() > 1 && sweeps_suffice(part.problem.accuracy);
+    if (!by_sweeps) prepare_factor();
+    const bool balances =
+        by_sweeps ? take_sweeps() : (position_ && displace()) || iterate(part.problem.accuracy);
     report = {iterations_, residual_};
     if (balances) give(part, v);
     return balances;
@@ -80,13 +86,18 @@ void BodySolver::take(const BodyPart& part, const std::vector<double>& v) {
     }
     for (std::size_t c = 0; c < s.points.size(); ++c)
         take_point(part, problem.rows.contacts[part.contacts[c]], s.points[c]);
+    kernel_.take_velocities(s);
+}
+
+/// The matrix of Newton's method, with no contact in it yet.
+void BodySolver::prepare_factor() {
+    BodyIsland& s = island_;
     s.order.analyse(s.bodies.size(), s.points);
     s.kept_diagonal.resize(s.bodies.size()), s.diagonal.resize(s.bodies.size());
     s.pivot_factors.resize(s.bodies.size());
     for (std::size_t b = 0; b < s.bodies.size(); ++b) s.kept_diagonal[b] = s.bodies[b].mass;
     s.kept_upper.assign(s.order.edges(), SixBlock{});
     s.upper.resize(s.order.edges()), s.lower.resize(s.order.edges());
-    kernel_.take_velocities(s);
 }
 
 void BodySolver::keep_start() {
@@ -117,18 +128,34 @@ bool BodySolver::take_first_step() {
     return false;
 }
 
+/// Velocities and impulses from those that the contacts carried last, and friction bounds to match.
+void BodySolver::sweep(int most) {
+    for (BodyPoint& p : island_.points) {
+        p.f_n = p.swept_n, p.f_1 = p.target_1 * p.stiffness_t, p.f_2 = p.target_2 * p.stiffness_t;
+        const double bound = p.coefficient * p.f_n, size2 = p.f_1 * p.f_1 + p.f_2 * p.f_2;
+        if (size2 > bound * bound) p.f_1 *= bound / std::sqrt(size2), p.f_2 *= bound / std::sqrt(size2);
+    }
+    kernel_.sweep(island_, most);
+    kernel_.take_velocities(island_);
+    for (BodyPoint& p : island_.points) p.bound = p.coefficient * p.swept_n;
+}
+
+/// The velocities by sweeps alone. True, for momentum balances.
+bool BodySolver::take_sweeps() {
+    sweep(std::min(most_sweeps(island_.bodies.size()), kSweepsAlone));
+    for (BodyPoint& p : island_.points) {
+        p.f_n = p.swept_n, p.f_1 = p.swept_1, p.f_2 = p.swept_2;
+        p.d_n = p.swept_n > 0 ? p.stiffness_n : 0;
+    }
+    residual_ = kernel_.set_gradient(island_);
+    return true;
+}
+
 /// A first step to where the bodies would be if every contact did what the sweeps say. False if that is no
 /// better than where we are, where we then still are.
 bool BodySolver::start_from_sweeps() {
     keep_start();
-    for (BodyPoint& p : island_.points) {
-        p.f_n = p.swept_n, p.f_1 = p.target_1 * p.stiffness_t, p.f_2 = p.target_2 * p.stiffness_t;
-        const double most = p.coefficient * p.f_n, size2 = p.f_1 * p.f_1 + p.f_2 * p.f_2;
-        if (size2 > most * most) p.f_1 *= most / std::sqrt(size2), p.f_2 *= most / std::sqrt(size2);
-    }
-    kernel_.sweep(island_, most_sweeps(island_.bodies.size()));
-    kernel_.take_velocities(island_);
-    for (BodyPoint& p : island_.points) p.bound = p.coefficient * p.swept_n;
+    sweep(most_sweeps(island_.bodies.size()));
     set_curvatures(island_.points);
     for (BodyPoint& p : island_.points) {
         p.d_n = p.f_n = 0;

@@ -39,6 +39,7 @@ class BodySolver {
 
   private:
     void take(const BodyPart& part, const std::vector<double>& v);
+    void prepare_factor();
     void take_body(const Mechanics<double>& robot, const double* v, FreeBody& body) const;
     void take_point(const BodyPart& part, const ContactRow& row, BodyPoint& point) const;
     bool iterate(const Accuracy& accuracy);
@@ -46,6 +47,8 @@ class BodySolver {
     bool change_pushing();
     void start();
     bool take_first_step();
+    void sweep(int most);
+    bool take_sweeps();
     bool start_from_sweeps();
     void start_from_sticking();
     double balance_tied();

@@ -1,6 +1,8 @@
 // See solver.h.
 #include "physics/solver/solver.h"
 
+#include "physics/solver/sweeps_alone.h"
+
 namespace roboss {
 namespace {
 
@@ -25,6 +27,8 @@ void IslandSolver::solve_any(const Problem& p, std::vector<double>& v, Report& r
     plan_ = piled ? kPilePlan : newton::Plan{};
     start(p, v);
     friction::keep_bounds(p.rows, start_bounds_);
+    if (piled && !p.position && p.rows.couplings.empty() && sweeps_suffice(p.accuracy))
+        return take_sweeps(p, v, report);
     if (piled) {
         if (p.position ? displace(p, v, report) : solve_by_sweeps(p, v, report)) return;
         start_as_expected(p, alone, v, report);
