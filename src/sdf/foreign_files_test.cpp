@@ -70,6 +70,17 @@ TEST(ForeignFiles, AFileWithALightOnlyIsAnEmptyWorld) {
     EXPECT_NE(loaded.find("no-model"), nullptr);
 }
 
+TEST(ForeignFiles, PathsOfAnotherComputerAreFoundByTheirEnd) {
+    const TestFolder folder;
+    folder.write("car/meshes/part.obj", kFace);
+    for (const char* uri : {"file:///home/ada/car/meshes/part.obj", "/home/ada/projects/meshes/part.obj"}) {
+        folder.write("car/model.sdf", world_file(model_with_mesh(uri)));
+        expect_mesh(folder.load("car/model.sdf"), uri);
+    }
+    folder.write("car/model.sdf", world_file(model_with_mesh("file:///home/ada/car/other/part.obj")));
+    EXPECT_NE(folder.load("car/model.sdf").find("file-not-found"), nullptr) << "a name alone says too little";
+}
+
 TEST(ForeignFiles, FileUrisAreLookedForInEveryResourceFolder) {
     const TestFolder folder;
     folder.write("share/media/part.obj", kFace);

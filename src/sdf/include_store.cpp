@@ -7,6 +7,7 @@
 #include <fstream>
 
 #include "sdf/newer_versions.h"
+#include "sdf/standard_models.h"
 #include "sdf/urdf.h"
 
 namespace roboss::sdf_import {
@@ -39,34 +40,43 @@ IncludeStore::~IncludeStore() {
     if (!folder_.empty()) std::filesystem::remove_all(folder_, ignored);
 }
 
+void IncludeStore::report_not_found(const Element& include, const Resolved& tried) {
+    const std::string uri = include.text("uri");
+    if (tried.remote)
+        diagnostics_.warning(
+            include.where(), "remote-uri",
+            "'" + uri + "' is on the network; nothing is fetched, the model is left out",
+            "Download it (gz fuel download -u URI) and run again, or give its folder with --path.");
+    else
+        diagnostics_.error(include.where(), "include-not-found",
+                           "<include> of '" + uri + "' leads to no file; the model is left out; searched: " +
+                               list_of(tried.searched),
+                           "Give the folder that holds it with --path, or in GZ_SIM_RESOURCE_PATH.");
+}
+
+std::unique_ptr<SourceFile> IncludeStore::read(const std::string& path) {
+    auto file = read_source(path, diagnostics_);
+    if (file && std::string(file->root().name()) == "robot") file = urdf_to_sdf(*file, diagnostics_);
+    return file;
+}
+
 const SourceFile* IncludeStore::file_of(const Element& include) {
     const std::string uri = include.text("uri");
-    const std::string base = include.source->folder();
-    const Resolved found = paths_.resolve_model(uri, base);
-    if (!found.path) {
-        if (found.remote) {
-            diagnostics_.warning(
-                include.where(), "remote-uri",
-                "'" + uri + "' is on the network; nothing is fetched, the model is left out",
-                "Download it (gz fuel download -u URI) and run again, or give its folder with --path.");
-        } else {
-            diagnostics_.error(
-                include.where(), "include-not-found",
-                "<include> of '" + uri +
-                    "' leads to no file; the model is left out; searched: " + list_of(found.searched),
-                "Give the folder that holds it with --path, or in GZ_SIM_RESOURCE_PATH.");
-        }
+    const Resolved found = paths_.resolve_model(uri, include.source->folder());
+    const auto built_in = found.path ? std::nullopt : standard_model(uri);
+    if (!found.path && !built_in) {
+        report_not_found(include, found);
         return nullptr;
     }
-    const auto [entry, is_new] = files_.try_emplace(*found.path);
+    const std::string path = found.path ? *found.path : built_in->path;
+    const auto [entry, is_new] = files_.try_emplace(path);
     if (is_new) {
-        auto file = read_source(*found.path, diagnostics_);
-        if (file && std::string(file->root().name()) == "robot") file = urdf_to_sdf(*file, diagnostics_);
+        auto file = built_in ? SourceFile::from_text(path, built_in->text, {}, diagnostics_) : read(path);
         if (file && !first_model(*file)) {
             // model://sun is in nearly every world of Gazebo's older version: a file with a light.
             const bool lights = holds_scenery_only(*file);
             if (!lights) report_no_model(*file, diagnostics_);
-            if (lights) lights_[*found.path] = std::move(file);
+            if (lights) lights_[path] = std::move(file);
             file = nullptr;
         }
         if (file) check_version(*file, diagnostics_);
@@ -81,8 +91,10 @@ Element IncludeStore::model_of(const Element& include) {
 }
 
 const SourceFile* IncludeStore::lights_of(const Element& include) {
-    const Resolved found = paths_.resolve_model(include.text("uri"), include.source->folder());
-    const auto known = found.path ? lights_.find(*found.path) : lights_.end();
+    const std::string uri = include.text("uri");
+    const Resolved found = paths_.resolve_model(uri, include.source->folder());
+    const auto built_in = found.path ? std::nullopt : standard_model(uri);
+    const auto known = lights_.find(found.path ? *found.path : built_in ? built_in->path : "");
     return known == lights_.end() ? nullptr : known->second.get();
 }
 

@@ -35,6 +35,8 @@ class IncludeStore : public SkeletonIncludes {
 
   private:
     const SourceFile* file_of(const Element& include);
+    std::unique_ptr<SourceFile> read(const std::string& path);
+    void report_not_found(const Element& include, const Resolved& tried);
     std::optional<std::string> folder();
 
     const ResourcePaths& paths_;

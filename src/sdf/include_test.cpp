@@ -89,6 +89,33 @@ TEST(Include, ThatLeadsNowhereTellsWhereItLooked) {
     EXPECT_NE(found->remedy.find("--path"), std::string::npos);
 }
 
+TEST(Include, OfSunAndGroundPlaneNeedsNoFiles) {
+    for (const char* prefix : {"model://", "https://fuel.gazebosim.org/1.0/OpenRobotics/models/"}) {
+        const bool fuel = prefix[0] == 'h';
+        const Loaded loaded = load_elements("<include><uri>" + std::string(prefix) + (fuel ? "Sun" : "sun") +
+                                            "</uri></include><include><uri>" + prefix +
+                                            (fuel ? "Ground Plane" : "ground_plane") +
+                                            "</uri><pose>0 0 -1 0 0 0</pose></include>");
+        ASSERT_TRUE(loaded.world);
+        EXPECT_EQ(loaded.text(), "") << "not even a warning";
+        ASSERT_EQ(loaded.world->instances.size(), 1u);
+        EXPECT_EQ(loaded.world->instances[0].name, "ground_plane");
+        EXPECT_EQ(loaded.world->instances[0].X_WM.p.z, -1);
+        ASSERT_EQ(loaded.world->look.lights.size(), 1u);
+        EXPECT_EQ(loaded.world->look.lights[0].direction, (Vec3{-0.5, 0.1, -0.9}));
+    }
+}
+
+TEST(Include, OfAGroundPlaneThatIsFoundTakesThatFile) {
+    const TestFolder folder;
+    folder.write("models/ground_plane/model.sdf", model_file("meadow", link("grass")));
+    folder.write("world.sdf", world_file("<include><uri>model://ground_plane</uri></include>"));
+    const Loaded loaded = folder.load("world.sdf");
+    ASSERT_TRUE(loaded.world);
+    ASSERT_EQ(loaded.world->instances.size(), 1u) << loaded.text();
+    EXPECT_EQ(loaded.world->instances[0].name, "meadow");
+}
+
 TEST(Include, OfAFuelModelIsLeftOutWithARemedy) {
     const Loaded loaded = load_elements(
         "<include><uri>https://fuel.gazebosim.org/1.0/OpenRobotics/models/Nowhere To Be "

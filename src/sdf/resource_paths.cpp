@@ -91,6 +91,18 @@ void try_any_case(fs::path folder, const fs::path& path, Resolved& result) {
     try_quietly(folder, result);
 }
 
+/// A path of somebody else's computer, /home/ada/car/meshes/a.stl: where its end, with a folder at least, is
+/// below the folder of the file that names it, or that one's parent.
+void try_end_of(const fs::path& absolute, const std::string& base, Resolved& result) {
+    if (result.path) return;
+    const fs::path here = fs::path(base.empty() ? "." : base);
+    fs::path end = absolute.relative_path();
+    for (; end.has_parent_path(); end = end.lexically_relative(*end.begin())) {
+        try_quietly(here / end, result);
+        try_quietly(here / ".." / end, result);
+    }
+}
+
 std::string package_name(const fs::path& folder) {
     pugi::xml_document package;
     if (!package.load_file((folder / "package.xml").c_str())) return {};
@@ -151,6 +163,7 @@ Resolved ResourcePaths::resolve(const std::string& uri, const std::string& base)
     if (path.is_absolute() && (is_file || scheme == std::string::npos)) {
         try_path(path, result);
         try_path(percent_decoded(path.string()), result);
+        try_end_of(path, base, result);
         return result;
     }
     path = path.relative_path();  // model:///car is meant as model://car
