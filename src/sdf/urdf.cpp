@@ -8,6 +8,7 @@
 #include <map>
 #include <sdf/sdf.hh>
 #include <sstream>
+#include <string_view>
 
 #include "sdf/console_capture.h"
 #include "sdf/urdf_repairs.h"
@@ -212,9 +213,34 @@ std::vector<int> map_lines(const SourceFile& urdf, const std::string& sdf) {
     return lines;
 }
 
+/// The first element that xacro would expand: one of its own, or one with ${...} or $(...) in an attribute.
+pugi::xml_node find_xacro(pugi::xml_node parent) {
+    for (const auto node : parent.children()) {
+        if (std::string_view(node.name()).starts_with("xacro:")) return node;
+        for (const auto attribute : node.attributes()) {
+            const std::string_view value = attribute.value();
+            if (value.find("${") != value.npos || value.find("$(") != value.npos) return node;
+        }
+        if (const auto found = find_xacro(node)) return found;
+    }
+    return {};
+}
+
+/// True, and an error, for a file that xacro has not expanded yet.
+bool report_xacro(const SourceFile& urdf, Diagnostics& diagnostics) {
+    const auto node = find_xacro(urdf.root());
+    if (!node) return false;
+    diagnostics.error(urdf.where(node), "xacro",
+                      "the file holds xacro macros (<" + std::string(node.name()) +
+                          ">), which are expanded before it is URDF",
+                      "Run: xacro FILE > robot.urdf (of ROS, or pip install xacro), and give robot.urdf.");
+    return true;
+}
+
 }  // namespace
 
 std::unique_ptr<SourceFile> urdf_to_sdf(const SourceFile& urdf, Diagnostics& diagnostics) {
+    if (report_xacro(urdf, diagnostics)) return nullptr;
     const SourceLocation where = urdf.where(urdf.root());
     pugi::xml_document repaired;
     repaired.append_copy(urdf.root());

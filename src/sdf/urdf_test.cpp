@@ -21,6 +21,22 @@ const std::string kArm =
     "link='upper'/><axis xyz='0 1 0'/>"
     "<limit lower='-1' upper='1.5' effort='20' velocity='3'/><dynamics damping='0.7'/></joint>\n</robot>\n";
 
+TEST(Urdf, WithMacrosIsAnErrorThatNamesXacro) {
+    for (const char* inner :
+         {"<xacro:property name='r' value='0.1'/><link name='a'/>",
+          "<link name='a'><inertial><mass value='${m}'/></inertial></link>",
+          "<link name='a'><visual><geometry><mesh filename='$(find car)/a.stl'/></geometry>"
+          "</visual></link>"}) {
+        const Loaded loaded = load_text("<robot name='car' xmlns:xacro='http://ros.org/wiki/xacro'>\n" +
+                                        std::string(inner) + "</robot>");
+        const Diagnostic* found = loaded.find("xacro");
+        ASSERT_NE(found, nullptr) << loaded.text();
+        EXPECT_EQ(found->where.line, 2);
+        EXPECT_NE(found->remedy.find("xacro FILE"), std::string::npos);
+        EXPECT_EQ(loaded.diagnostics.count(Severity::kError), 1u) << loaded.text();
+    }
+}
+
 TEST(Urdf, BecomesAWorldWithOneRobot) {
     const Loaded loaded = load_text(kArm, "arm.urdf");
     ASSERT_TRUE(loaded.world) << loaded.text();
