@@ -4,6 +4,7 @@
 
 #include <set>
 #include <string>
+#include <string_view>
 
 #include "sdf/element_reader.h"
 #include "world/joint_type.h"
@@ -47,6 +48,28 @@ void mend_inertials(pugi::xml_node robot, const SourceFile& urdf, Diagnostics& d
     }
 }
 
+/// libsdformat divides by the mass of links that it merges at fixed joints. One without mass says nothing
+/// more than none.
+void drop_empty_inertials(pugi::xml_node robot) {
+    for (const auto joint : robot.children("joint")) {
+        if (std::string_view(joint.attribute("type").value()) != "fixed") continue;
+        auto link =
+            robot.find_child_by_attribute("link", "name", joint.child("child").attribute("link").value());
+        const auto mass = link.child("inertial").child("mass").attribute("value");
+        if (mass && parse_number(mass.value()) == 0.0) link.remove_child("inertial");
+    }
+}
+
+/// urdfdom refuses a version that is not of two numbers.
+void mend_version(pugi::xml_node robot, const SourceFile& urdf, Diagnostics& diagnostics) {
+    const auto version = robot.attribute("version");
+    if (!version || std::string_view(version.value()) == "1.0") return;
+    diagnostics.warning(urdf.where(urdf.root()), "urdf-version",
+                        "version=\"" + std::string(version.value()) + "\" of <robot> is read as 1.0",
+                        "Write version=\"1.0\", or none.");
+    robot.remove_attribute("version");
+}
+
 void rename_joints(pugi::xml_node robot, const SourceFile& urdf, Diagnostics& diagnostics) {
     std::set<std::string> taken;
     for (const auto part : robot.children()) taken.insert(part.attribute("name").value());
@@ -71,7 +94,9 @@ void rename_joints(pugi::xml_node robot, const SourceFile& urdf, Diagnostics& di
 }  // namespace
 
 void repair_urdf(pugi::xml_node robot, const SourceFile& urdf, Diagnostics& diagnostics) {
+    mend_version(robot, urdf, diagnostics);
     mend_inertials(robot, urdf, diagnostics);
+    drop_empty_inertials(robot);
     rename_joints(robot, urdf, diagnostics);
 }
 

@@ -21,6 +21,27 @@ const std::string kArm =
     "link='upper'/><axis xyz='0 1 0'/>"
     "<limit lower='-1' upper='1.5' effort='20' velocity='3'/><dynamics damping='0.7'/></joint>\n</robot>\n";
 
+TEST(Urdf, LinksOfNoMassAtFixedJointsAreFramesAndAnyVersionIsRead) {
+    const auto empty = [](const std::string& name) {
+        return "<link name='" + name +
+               "'><inertial><mass value='0.0'/><inertia ixx='0' ixy='0' ixz='0' iyy='0' iyz='0' izz='0'/>"
+               "</inertial></link>";
+    };
+    const Loaded loaded = load_text(
+        "<robot name='hand' version='1.0.0'><link name='palm'><inertial><mass value='2'/>"
+        "<inertia ixx='1' ixy='0' ixz='0' iyy='1' iyz='0' izz='1'/></inertial></link>" +
+        empty("tip") + empty("nail") +
+        "<joint name='a' type='fixed'><parent link='palm'/><child link='tip'/></joint>"
+        "<joint name='b' type='fixed'><parent link='tip'/><child link='nail'/></joint></robot>");
+    ASSERT_TRUE(loaded.world) << loaded.text();
+    EXPECT_FALSE(loaded.diagnostics.has_errors()) << loaded.text();
+    EXPECT_NE(loaded.find("urdf-version"), nullptr);
+    ASSERT_EQ(loaded.world->prototypes.size(), 1u);
+    double mass = 0;
+    for (const LinkSpec& link : loaded.world->prototypes[0].links) mass += link.mass;
+    EXPECT_EQ(mass, 2);
+}
+
 TEST(Urdf, WithMacrosIsAnErrorThatNamesXacro) {
     for (const char* inner :
          {"<xacro:property name='r' value='0.1'/><link name='a'/>",
