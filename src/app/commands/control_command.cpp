@@ -272,6 +272,7 @@ std::string text_of(const ControlOutcome& outcome) {
     if (const auto* status = std::get_if<RunStatus>(&outcome)) return status_json(*status);
     if (const auto* groups = std::get_if<RobotGroups>(&outcome)) return groups_json(*groups);
     if (const auto* bounds = std::get_if<RobotBounds>(&outcome)) return bounds_json(*bounds);
+    if (const auto* profile = std::get_if<RunProfile>(&outcome)) return profile_json(*profile);
     if (const auto* timeline = std::get_if<RunTimeline>(&outcome)) return timeline_json(*timeline);
     if (const auto* preview = std::get_if<RunPreview>(&outcome)) return preview_json(*preview);
     return std::get<ControlDone>(outcome).text;
