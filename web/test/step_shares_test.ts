@@ -13,6 +13,7 @@ const profile: StepProfile = {
     ],
     largest_island_robots: 40,
     most_contacts: 312,
+    largest_part_robots: 30,
     iterations_per_island_mean: 3.25,
     iterations_per_island_most: 17,
     residual_worst: 2.5e-9,
@@ -48,7 +49,9 @@ test("what was not measured has no rows and says why", () => {
 
 test("the solver's figures are words", () => {
     const facts = solverFacts(profile);
-    assert.equal(facts["Largest island"], "40 robots, 312 contacts");
+    assert.equal(facts["Largest island"], "40 robots");
+    assert.equal(facts["Most contacts"], "312");
+    assert.equal(facts["Solved together"], "30 robots");
     assert.equal(facts.Iterations, "3.3 mean, 17 most");
     assert.equal(facts.Residual, "2.5e-9");
     assert.equal(facts["Friction off by"], "1.5e-2");

@@ -110,6 +110,8 @@ void add_plain(CLI::App& command, ControlCommandOptions& o, const Ask& ask) {
     one("speed", "set the speed: simulated seconds per real second, max or world", "speed", true);
     one("window", "set the synchronization interval in ticks, or auto", "window", true);
     none("groups", "print the Simulator and the island of each robot, as JSON");
+    none("profile",
+         "print where the time of the steps went in the last second, as JSON; the first answer is empty");
     none("bounds", "print the bounding box that each robot swept in the last window (m), as JSON");
     add_save(command, o, ask);
     one("rewind", "return to this time (s) of the journal, or #BRANCH@TIME, and continue from there", "time",

@@ -27,13 +27,12 @@ function exponent(value: number | null | undefined): string {
 
 /** Values by the names of the panel's facts. */
 export function solverFacts(profile: StepProfile): Record<string, string> {
-    const robots = profile.largest_island_robots,
-        contacts = profile.most_contacts ?? 0;
+    const robots = (count: number | undefined) =>
+        count === undefined ? "–" : `${short(count)} ${count === 1 ? "robot" : "robots"}`;
     return {
-        "Largest island":
-            robots === undefined
-                ? "–"
-                : `${short(robots)} ${robots === 1 ? "robot" : "robots"}${contacts > 0 ? `, ${short(contacts)} contacts` : ""}`,
+        "Largest island": robots(profile.largest_island_robots),
+        "Most contacts": short(profile.most_contacts),
+        "Solved together": robots(profile.largest_part_robots),
         Iterations:
             profile.iterations_per_island_mean === undefined
                 ? "–"

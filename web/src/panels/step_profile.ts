@@ -7,10 +7,9 @@ import { fixed } from "../ui/numbers";
 import type { StepProfile } from "../wire/profile";
 
 const FACTS: readonly (readonly [name: string, title: string])[] = [
-    [
-        "Largest island",
-        "Robots that are connected by contacts, the most in one step, and the most contacts of one island",
-    ],
+    ["Largest island", "Robots that are connected by contacts, the most in one step"],
+    ["Most contacts", "Contact points and near misses of one island of several robots; 0: robots do not touch"],
+    ["Solved together", "Islands are solved in parts: robots of the largest part"],
     ["Iterations", "Of Newton's method, for a contact island in one step"],
     ["Residual", "What the balance of momentum lacks, relative, in the worst island"],
     ["Friction off by", "The most that friction differs from the coefficient times the normal impulse, relative"],
