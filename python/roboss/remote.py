@@ -54,9 +54,8 @@ class RemoteSimulation(Run):
     """A run elsewhere, at the tick that this program observes. `connect` makes it; `with` leaves the run at the end.
 
     `robots`, their arrays (joint positions and velocities among them), orders, commands, sensors and `contacts` are those
-    of a Simulation. Sensors are computed in this process. What is assigned to `pose` and `twist` is an order: it is seen
-    after the next `step`. Joint states cannot be set (OrderError, code "remote"): no order does that. Robots that others
-    add or remove end the connection (StateError, "changed-world"). Orders that the Controller refuses go to the logger
+    of a Simulation. Sensors are computed in this process. What is assigned to `pose`, `twist`, `joint_position` and
+    `joint_velocity` (`qpos`, `qvel`) is an order: it is seen after the next `step`. Robots that others add or remove end the connection (StateError, "changed-world"). Orders that the Controller refuses go to the logger
     "roboss".
 
     `reset`, `restore`, `spawn` and `remove` are requests to the run: they change the world for all its Clients. Orders that

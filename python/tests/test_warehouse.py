@@ -153,6 +153,51 @@ def test_the_same_seed_gives_the_same_bits(mode, worlds):
     assert all(np.array_equal(one, other) for one, other in zip(*(way for way, _ in ways)))
 
 
+def test_carriers_of_a_traffic_control_deliver_without_collisions():
+    env = envs.WarehouseVectorEnv(num_envs=16, worlds=2, threads=2)
+    env.reset(seed=1)
+    drive = envs.CarrierTraffic(env.task)
+    fetched = delivered = 0
+    for _ in range(1200):
+        _, _, terminated, _, infos = env.step(drive())
+        assert not infos["collided"].any()
+        fetched, delivered = fetched + infos["fetched"].sum(), delivered + infos["delivered"].sum()
+    assert fetched >= 20 and delivered >= 12          # 30 and 21
+
+
+def test_lanes_lead_from_everywhere_to_everywhere_and_keep_their_distance():
+    from roboss.envs.warehouse_traffic import Lanes, distances
+    for carriers in (1, 3, 8, 40):
+        lanes = Lanes(envs.WarehouseTask(carriers=carriers).hall)
+        nodes = lanes.nodes
+        far = np.hypot(*(nodes[:, None] - nodes[None]).transpose(2, 0, 1))
+        assert (far + 10 * np.eye(len(nodes))).min() > 0.8
+        free = np.zeros(len(nodes))
+        for start in range(0, len(nodes), 7):
+            for goal in range(0, len(nodes), 11):
+                way = lanes.way(start, goal, free, set())
+                assert start == goal or way[-1] == goal
+                for one, other in zip([start, *way], way):
+                    assert other in [node for node, _ in lanes.edges[one]]
+    crossing = distances(np.array([[0.0, 0], [2, 0]]), np.array([[[1.0, -1], [1, 1]], [[0, 1], [2, 1]], [[3, 0], [4, 0]]]))
+    assert crossing == pytest.approx([0, 1, 1])
+
+
+def test_a_loaded_carrier_stops_after_turns():
+    """The wheels carry it, not the sliders: a carrier whose sliders bore its weight slid without brakes."""
+    env = alone()
+    put(env, *env.task._place_of_goal[0])
+    env.step(np.zeros((1, 2)))
+    assert env.task.loaded[0]
+    put(env, float(env.task.hall.aisles[0]), -4.2, 0.0)
+    for step in range(40):
+        _, _, terminated, _, _ = env.step(np.array([[0.5, 0.4 if step < 20 else 0.0]]))
+        assert not terminated[0]
+    for _ in range(12):
+        env.step(np.zeros((1, 2)))
+    assert np.hypot(*env.task.robots.twist[0, :2]) < 0.02
+
+
 def test_no_two_carriers_have_an_order_for_the_same_slot():
     env = envs.WarehouseVectorEnv(num_envs=12, threads=1, episode_s=4)
     env.reset(seed=1)

@@ -175,6 +175,13 @@ OrderResult Client::set_joint(const RobotRef& robot, const JointRef& joint, Moto
     return order(id, SetJoint{known_joint, axis, mode, target, max_effort});
 }
 
+OrderResult Client::set_joint_state(const RobotRef& robot, const JointRef& joint,
+                                    std::vector<double> position, std::vector<double> velocity) {
+    const RobotId id = id_for_order(robot);
+    const JointId known_joint = joint.named() ? joint_id(id, joint) : joint.id();
+    return order(id, SetJointState{known_joint, std::move(position), std::move(velocity)});
+}
+
 OrderResult Client::command(const RobotRef& robot, const std::string& name, std::vector<double> values) {
     const RobotId id = this->robot(robot);
     const auto found = model().type_of(id).find_channel(name);

@@ -90,6 +90,11 @@ class Client : private SensorSources {
     /// or N bounds the motor; negative: the joint's own bound.
     OrderResult set_joint(const RobotRef& robot, const JointRef& joint, MotorMode mode, double target,
                           double max_effort = -1, int axis = 0);
+    /// Puts a joint at a position (rad or m, one number for each axis; of a ball joint a rotation vector) and
+    /// gives it a velocity (rad/s or m/s); what is empty is kept. Refused for joints that close loops
+    /// ("loop-joint").
+    OrderResult set_joint_state(const RobotRef& robot, const JointRef& joint, std::vector<double> position,
+                                std::vector<double> velocity = {});
     /// Latches a command of the robot's on-board controllers, e.g. "cmd_vel"; `roboss check` lists names,
     /// values and units. Of a list: row by row.
     OrderResult command(const RobotRef& robot, const std::string& name, std::vector<double> values);

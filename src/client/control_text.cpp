@@ -200,6 +200,7 @@ Parsed parse(const Words& words) {
     if (verb == "status" && n == 1) return GetStatus{true};
     if (verb == "groups" && n == 1) return GetGroups{};
     if (verb == "bounds" && n == 1) return GetBounds{};
+    if (verb == "profile" && n == 1) return GetProfile{};
     if (verb == "pause" && n == 1) return PauseRun{};
     if (verb == "resume" && n == 1) return ResumeRun{};
     if (verb == "quit" && n == 1) return QuitRun{};

@@ -15,6 +15,7 @@ TEST(ControlText, ReadsEachRequest) {
         {{"status"}, GetStatus{true}},
         {{"groups"}, GetGroups{}},
         {{"bounds"}, GetBounds{}},
+        {{"profile"}, GetProfile{}},
         {{"pause"}, PauseRun{}},
         {{"resume"}, ResumeRun{}},
         {{"quit"}, QuitRun{}},

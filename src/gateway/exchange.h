@@ -24,7 +24,7 @@ struct WatchRequest {
     bool anyone = false;
     std::uint32_t interval_ms = 0;  // between two views; 0: none
     std::vector<RobotId> robots;    // whose exact states are wanted, ascending
-    bool contacts = false, bounds = false, groups = false;
+    bool contacts = false, bounds = false, groups = false, profile = false;
     friend bool operator==(const WatchRequest&, const WatchRequest&) = default;
 };
 
@@ -49,7 +49,7 @@ struct ShownScene {
 
 /// A line for pages. Its text is made where it is sent from, so that the run does not pay for it.
 struct Line {
-    enum class To { kPage, kAll, kStatus, kGroups, kBounds, kTimeline };
+    enum class To { kPage, kAll, kStatus, kGroups, kBounds, kProfile, kTimeline };
     To to = To::kAll;
     std::uint64_t page = 0;
     bool may_miss = false;  // by a page that is slow

@@ -189,6 +189,7 @@ PageWatch watch_of(Fields& fields) {
         watch.contacts = watch.contacts || overlay == "contacts";
         watch.bounds = watch.bounds || overlay == "bounds";
         watch.groups = watch.groups || overlay == "groups";
+        watch.profile = watch.profile || overlay == "profile";
     }
     watch.rate = fields.number("rate", 30.0);
     if (!(watch.rate >= 0)) fields.fail("rate", "a number from 0 on");

@@ -40,7 +40,7 @@ struct PageOrder {
 };
 struct PageWatch {
     std::vector<RobotId> robots;
-    bool contacts = false, bounds = false, groups = false;
+    bool contacts = false, bounds = false, groups = false, profile = false;
     double rate = 30;  // States a second
 };
 struct PageWhole {};

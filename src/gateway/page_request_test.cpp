@@ -80,13 +80,14 @@ TEST(PageRequest, UnderstandsPullsReplacingPushesAndControl) {
 }
 
 TEST(PageRequest, UnderstandsWatchesAndBoundsTheirRate) {
-    const auto request =
-        parse_page_request(R"({"type":"watch","robots":[3,9],"overlays":["contacts","new"],"rate":500})");
+    const auto request = parse_page_request(
+        R"({"type":"watch","robots":[3,9],"overlays":["contacts","new","profile"],"rate":500})");
     ASSERT_TRUE(request.ok());
     const PageWatch& watch = std::get<PageWatch>(request.value().what);
     EXPECT_EQ(watch.robots, (std::vector<RobotId>{RobotId(3u), RobotId(9u)}));
     EXPECT_TRUE(watch.contacts);
     EXPECT_FALSE(watch.bounds);
+    EXPECT_TRUE(watch.profile);
     EXPECT_EQ(watch.rate, 60);
 }
 

@@ -13,6 +13,7 @@ struct Needed {
     PageRole operator()(const GetStatus&) const { return PageRole::kWatch; }
     PageRole operator()(const GetGroups&) const { return PageRole::kWatch; }
     PageRole operator()(const GetBounds&) const { return PageRole::kWatch; }
+    PageRole operator()(const GetProfile&) const { return PageRole::kWatch; }
     PageRole operator()(const GetTimeline&) const { return PageRole::kWatch; }
     PageRole operator()(const PreviewRun&) const { return PageRole::kWatch; }
     PageRole operator()(const SetWindow&) const { return PageRole::kAdminister; }

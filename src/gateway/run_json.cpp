@@ -88,6 +88,28 @@ void append(Json& o, const RunStatus& s) {
     for (const MemberStatus& member : s.members) o["members"].push_back(json_of(member));
 }
 
+void append(Json& o, const RunProfile& p) {
+    const auto ratio = [](auto part, auto all) {
+        return all > 0 ? static_cast<double>(part) / static_cast<double>(all) : 0.0;
+    };
+    Json stages = Json::array();
+    for (const StageTime& stage : p.stages)
+        stages.push_back({{"name", stage.name}, {"seconds", stage.seconds}});
+    o.update({{"ticks", p.ticks},
+              {"stages", std::move(stages)},
+              {"largest_island_robots", p.largest_island},
+              {"most_contacts", p.most_contacts},
+              {"largest_part_robots", p.largest_part},
+              {"iterations_per_tick_mean", ratio(p.iterations, p.ticks)},
+              {"iterations_per_island_mean", ratio(p.iterations, p.islands)},
+              {"iterations_per_island_most", p.iterations_most},
+              {"residual_worst", p.residual},
+              {"friction_solves", p.friction_solves},
+              {"friction_missed_share", ratio(p.friction_misses, p.friction_solves)},
+              {"friction_error_worst", p.friction_error},
+              {"friction_tolerance", p.friction_tolerance}});
+}
+
 void append(Json& o, const RunTimeline& timeline) {
     o["serial"] = timeline.serial;
     o["branch"] = timeline.branch;
@@ -160,6 +182,22 @@ std::string groups_json(const RobotGroups& groups) {
                     {"simulator", groups.simulator},
                     {"island", groups.island}},
                    -1);
+}
+
+std::string profile_json(const RunProfile& profile) {
+    Json o = Json::object();
+    append(o, profile);
+    return text_of(o, 2);
+}
+
+std::string profile_line(const RunProfile& profile) {
+    Json o{{"type", "profile"}};
+    append(o, profile);
+    return text_of(o, -1);
+}
+
+std::string profile_line(const Error& refusal) {
+    return text_of({{"type", "profile"}, {"ticks", 0}, {"why", refusal.text()}}, -1);
 }
 
 std::string timeline_json(const RunTimeline& timeline) {

@@ -20,6 +20,11 @@ std::string extras_line(const ViewExtras& extras, Tick tick, std::uint32_t scene
 std::string groups_json(const RobotGroups& groups);
 /// The boxes that robots swept, m.
 std::string bounds_json(const RobotBounds& bounds);
+/// Where the time of the steps goes.
+std::string profile_json(const RunProfile& profile);
+/// Its line for pages that watch it; a refusal says why there is none.
+std::string profile_line(const RunProfile& profile);
+std::string profile_line(const Error& refusal);
 /// Branches and bookmarks of the journal.
 std::string timeline_json(const RunTimeline& timeline);
 /// What is shown and what is not; the robots only as a number.

@@ -19,7 +19,8 @@ constexpr std::int64_t kAgain_ms = 250;         // what is not answered is asked
 constexpr std::int64_t kFetchAgain_ms = 1'000;  // the Model, after it could not be read or has changed
 constexpr std::int64_t kWatchAgain_ms = 1'000;
 constexpr std::int64_t kPreviewAgain_ms = 1'000;  // longer than a preview takes
-constexpr std::int64_t kStatusEvery_ms = 500, kGroupsEvery_ms = 500, kBoundsEvery_ms = 250;
+constexpr std::int64_t kStatusEvery_ms = 500, kGroupsEvery_ms = 500, kBoundsEvery_ms = 250,
+                       kProfileEvery_ms = 500;
 constexpr std::uint32_t kExactEvery_ms = 100;
 constexpr std::size_t kQuestionsMax = 200;
 constexpr std::size_t kPreviewsMax = 32;   // pages whose requests are remembered
@@ -211,6 +212,9 @@ void RunWatcher::poll(std::int64_t now_ms) {
                                         if (const auto* status = std::get_if<RunStatus>(&outcome))
                                             show_status(*status, now_ms);
                                     }});
+    if (watch_request_.profile && due(profile_ms_, kProfileEvery_ms))
+        polls_.questions.push_back(
+            {GetProfile{}, [this](const ControlOutcome& outcome) { show_profile(outcome); }});
     if (!scene_ || outdated_) return;
     if (watch_request_.groups && due(groups_ms_, kGroupsEvery_ms))
         polls_.questions.push_back({GetGroups{}, [this, scene = scene_](const ControlOutcome& outcome) {
@@ -285,6 +289,15 @@ void RunWatcher::show_bounds(const RobotBounds& bounds, const ShownScene& scene)
                      }});
 }
 
+void RunWatcher::show_profile(const ControlOutcome& outcome) {
+    Line line{Line::To::kProfile, 0, true, {}};
+    if (const auto* profile = std::get_if<RunProfile>(&outcome))
+        line.make = [profile = *profile]() { return profile_line(profile); };
+    else if (const auto* refused = std::get_if<ControlRefused>(&outcome))
+        line.make = [error = refused->error()]() { return profile_line(error); };
+    if (line.make) exchange_->send(std::move(line));
+}
+
 void RunWatcher::answer(std::uint64_t page, std::int64_t id, const ControlOutcome& outcome) {
     if (const auto* done = std::get_if<ControlDone>(&outcome)) return answer(page, id, true, done->text);
     if (const auto* refused = std::get_if<ControlRefused>(&outcome))
@@ -293,6 +306,8 @@ void RunWatcher::answer(std::uint64_t page, std::int64_t id, const ControlOutcom
         return answer(page, id, true, status_json(*status));
     if (const auto* groups = std::get_if<RobotGroups>(&outcome))
         return answer(page, id, true, groups_json(*groups));
+    if (const auto* profile = std::get_if<RunProfile>(&outcome))
+        return answer(page, id, true, profile_json(*profile));
     if (const auto* timeline = std::get_if<RunTimeline>(&outcome))
         return answer(page, id, true, timeline_json(*timeline));
     if (const auto* preview = std::get_if<RunPreview>(&outcome)) return answer(page, id, *preview);

@@ -71,6 +71,7 @@ class RunWatcher {
     void show_status(const RunStatus& status, std::int64_t asked_at_ms);
     void show_groups(const RobotGroups& groups, const ShownScene& scene);
     void show_bounds(const RobotBounds& bounds, const ShownScene& scene);
+    void show_profile(const ControlOutcome& outcome);
     void show_timeline(const RunTimeline& timeline);
     void preview(std::uint64_t page, std::int64_t id, const PreviewRun& wanted);
     void serve_previews(Bus& bus);
@@ -98,7 +99,7 @@ class RunWatcher {
     Requester polls_, control_;
     std::map<std::uint64_t, PreviewAsk> previews_;  // by page
     std::uint64_t timeline_ = 0;                    // RunTimeline::serial that was shown last
-    std::optional<std::int64_t> status_ms_, groups_ms_, bounds_ms_;
+    std::optional<std::int64_t> status_ms_, groups_ms_, bounds_ms_, profile_ms_;
     double status_time_s_ = 0;
     std::int64_t status_at_ms_ = 0;
 

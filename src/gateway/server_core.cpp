@@ -209,6 +209,7 @@ void ServerCore::watch_changed() {
         request.contacts = request.contacts || watch.contacts;
         request.bounds = request.bounds || watch.bounds;
         request.groups = request.groups || watch.groups;
+        request.profile = request.profile || watch.profile;
         rate = std::max(rate, watch.rate);
         robots.insert(watch.robots.begin(), watch.robots.end());
     }
@@ -360,10 +361,12 @@ void ServerCore::send_lines(std::vector<Line>& lines) {
         std::string text;  // made for the first page that gets it
         if (line.to == Line::To::kTimeline) text = timeline_ = line.make();
         for (const auto& [number, page] : std::map(pages_)) {
-            const bool gets_it = line.to == Line::To::kPage     ? number == line.page
-                                 : line.to == Line::To::kGroups ? page->watch().groups
-                                 : line.to == Line::To::kBounds ? page->watch().bounds
-                                                                : true;
+            const PageWatch& watch = page->watch();
+            const bool gets_it = line.to == Line::To::kPage      ? number == line.page
+                                 : line.to == Line::To::kGroups  ? watch.groups
+                                 : line.to == Line::To::kBounds  ? watch.bounds
+                                 : line.to == Line::To::kProfile ? watch.profile
+                                                                 : true;
             if (!gets_it) continue;
             if (text.empty()) text = line.make();
             if (text.empty()) break;

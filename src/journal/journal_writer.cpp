@@ -55,8 +55,10 @@ Result<> make_tables(Database& db) {
 
 /// Of a file in an older format.
 Result<> bring_up_to_date(Database& db) {
-    if (count(db, "SELECT value FROM meta WHERE key = 'format'") == kJournalFormat) return Ok{};
-    if (Result<> r = db.run(std::string("BEGIN;") + kJournalTables5); !r) return r;
+    const std::int64_t format = count(db, "SELECT value FROM meta WHERE key = 'format'");
+    if (format == kJournalFormat) return Ok{};
+    const std::string tables = format < kFirstPrunableFormat ? kJournalTables5 : "";
+    if (Result<> r = db.run("BEGIN;" + tables); !r) return r;
     if (Result<> r = db.insert("UPDATE meta SET value = ? WHERE key = 'format'", {{kJournalFormat}}); !r)
         return r;
     return db.run("COMMIT;");

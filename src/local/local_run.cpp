@@ -2,11 +2,9 @@
 #include "local/local_run.h"
 
 #include <algorithm>
-#include <cmath>
 #include <iterator>
 
 #include "model/topics.h"
-#include "world/joint_type.h"
 
 namespace roboss {
 
@@ -89,68 +87,6 @@ Result<> LocalRun::change(RobotId robot, const Action& action) {
     const Order now{tick_, ClientId(0U), given_, robot, action};
     if (Result<> checked = check_order(model(), now); !checked) return checked;
     apply_order(model(), now, states_[robot.index()]);
-    stepper_.forget();
-    changed();
-    return Ok{};
-}
-
-Result<> LocalRun::check_joint_change(RobotId robot, JointId id, int axis, std::optional<double> position,
-                                      std::optional<double> velocity) const {
-    // What an order of a velocity may be, a velocity may be.
-    const SetJoint like{id, axis, MotorMode::kVelocity, velocity.value_or(0)};
-    if (Result<> checked = check_order(model(), {tick_, ClientId(0U), 0, robot, like}); !checked)
-        return checked;
-    const Joint& joint = model().type_of(robot).joints[id.index()];
-    const std::string what =
-        "joint '" + joint.name + "' of robot '" + model().robots[robot.index()].name + "'";
-    if (joint.loop >= 0)
-        return Error{what + " closes a loop: its state follows from the other joints", "set those",
-                     "loop-joint"};
-    if (!position) return Ok{};
-    if (joint_type(joint.kind).is_isotropic())
-        return Error{what + " is a ball joint, whose axes cannot be set one by one", "set its velocity",
-                     "no-position"};
-    if (!std::isfinite(*position) || std::fabs(*position) > kOrderLimits.position)
-        return Error{"the position of " + what + " is not finite, or beyond 1e9 rad or m",
-                     "give a finite number", "beyond-limit"};
-    return Ok{};
-}
-
-Result<> LocalRun::change_joint(RobotId robot, JointId id, int axis, std::optional<double> position,
-                                std::optional<double> velocity) {
-    if (Result<> checked = check_joint_change(robot, id, axis, position, velocity); !checked) return checked;
-    const Joint& joint = model().type_of(robot).joints[id.index()];
-    const int offset = joint.axis_offset(axis);
-    RobotState& state = states_[robot.index()];
-    state.rest = {};
-    if (position) state.q[static_cast<std::size_t>(joint.q_index + offset)] = *position;
-    if (velocity) state.v[static_cast<std::size_t>(joint.v_index + offset)] = *velocity;
-    stepper_.forget();
-    changed();
-    return Ok{};
-}
-
-Result<> LocalRun::check_ball_change(RobotId robot, JointId id, const Vec3& rotation) const {
-    if (Result<> checked = check_joint_change(robot, id, 0, {}, {}); !checked) return checked;
-    const Joint& joint = model().type_of(robot).joints[id.index()];
-    const std::string what =
-        "joint '" + joint.name + "' of robot '" + model().robots[robot.index()].name + "'";
-    if (!joint_type(joint.kind).is_isotropic())
-        return Error{what + " is no ball joint", "set the position of its axis", "no-ball"};
-    if (!is_finite(rotation) || norm(rotation) > kOrderLimits.position)
-        return Error{"the position of " + what + " is not finite, or beyond 1e9 rad",
-                     "give a finite rotation vector", "beyond-limit"};
-    return Ok{};
-}
-
-Result<> LocalRun::change_ball_joint(RobotId robot, JointId id, const Vec3& rotation) {
-    if (Result<> checked = check_ball_change(robot, id, rotation); !checked) return checked;
-    const Joint& joint = model().type_of(robot).joints[id.index()];
-    const Quat q = exponential(rotation);
-    RobotState& state = states_[robot.index()];
-    state.rest = {};
-    double* const at = &state.q[static_cast<std::size_t>(joint.q_index)];
-    at[0] = q.w, at[1] = q.x, at[2] = q.y, at[3] = q.z;
     stepper_.forget();
     changed();
     return Ok{};

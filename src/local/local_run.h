@@ -60,12 +60,6 @@ class LocalRun final : public RunAccess {
     /// As order(), but at once: state() shows what it did. Orders that wait for the next tick follow it, also
     /// those given before.
     Result<> change(RobotId robot, const Action& action) override;
-    Result<> change_joint(RobotId robot, JointId joint, int axis, std::optional<double> position,
-                          std::optional<double> velocity) override;
-    Result<> change_ball_joint(RobotId robot, JointId joint, const Vec3& rotation) override;
-    Result<> check_ball_change(RobotId robot, JointId joint, const Vec3& rotation) const override;
-    Result<> check_joint_change(RobotId robot, JointId joint, int axis, std::optional<double> position,
-                                std::optional<double> velocity) const override;
     /// An order with a tick, tick() or later, as from a file. Those of a tick are sorted by (Client,
     /// sequence); those of order() are Client 0.
     Result<> submit(const Order& order);

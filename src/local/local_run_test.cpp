@@ -218,7 +218,7 @@ TEST(LocalRun, HasAnotherVersionAfterEachChangeOfStates) {
     EXPECT_FALSE(is_new());
     EXPECT_TRUE(run->change(RobotId(0u), SetVelocity{{1, 0, 0}, {}}).ok());
     EXPECT_TRUE(is_new());
-    EXPECT_TRUE(run->change_joint(RobotId(0u), JointId(0u), 0, 1.0, {}).ok());
+    EXPECT_TRUE(run->change(RobotId(0u), SetJointState{JointId(0u), {1.0}, {}}).ok());
     EXPECT_TRUE(is_new());
     EXPECT_TRUE(run->restore(save).ok());
     EXPECT_TRUE(is_new());
@@ -230,12 +230,18 @@ TEST(LocalRun, RefusesJointsThatCannotBeSet) {
     const auto run = run_of(crowd(1));
     const RobotId car(0U);
     const JointId wheel(0U);
-    EXPECT_EQ(run->change_joint(RobotId(1U), wheel, 0, 1.0, {}).error().code, "no-robot");
-    EXPECT_EQ(run->change_joint(car, JointId(9U), 0, 1.0, {}).error().code, "no-joint");
-    EXPECT_EQ(run->change_joint(car, wheel, 1, 1.0, {}).error().code, "no-axis");
-    EXPECT_EQ(run->change_joint(car, wheel, 0, 1e10, {}).error().code, "beyond-limit");
-    EXPECT_EQ(run->change_joint(car, wheel, 0, {}, NAN).error().code, "not-finite");
-    EXPECT_EQ(run->change_ball_joint(car, wheel, {}).error().code, "no-ball");
+    const auto code = [&](RobotId robot, SetJointState state) {
+        return run->change(robot, state).error().code;
+    };
+    EXPECT_EQ(code(RobotId(1U), {wheel, {1.0}, {}}), "no-robot");
+    EXPECT_EQ(code(car, {JointId(9U), {1.0}, {}}), "no-joint");
+    EXPECT_EQ(code(car, {wheel, {1.0, 2.0}, {}}), "bad-values");
+    EXPECT_EQ(code(car, {wheel, {1.0}, {1.0, 2.0, 3.0}}), "bad-values");
+    EXPECT_EQ(code(car, {wheel, {}, {}}), "bad-values");
+    EXPECT_EQ(code(car, {wheel, {1e10}, {}}), "beyond-limit");
+    EXPECT_EQ(code(car, {wheel, {}, {-1e6}}), "beyond-limit");
+    EXPECT_EQ(code(car, {wheel, {NAN}, {}}), "not-finite");
+    EXPECT_EQ(code(car, {wheel, {}, {NAN}}), "not-finite");
 }
 
 TEST(LocalBatch, EachRunGoesItsOwnWayWithTheBitsOfARunAlone) {
@@ -277,7 +283,7 @@ TEST(RobotSet, SetsJointsAtOnceAndForAllRobotsOrNone) {
     EXPECT_EQ(now, angles);
     std::vector<double> bad(8, 0.5);
     bad[7] = NAN;
-    EXPECT_EQ(cars.set_joint_positions(*run, bad).error().code, "beyond-limit");
+    EXPECT_EQ(cars.set_joint_positions(*run, bad).error().code, "not-finite");
     cars.joint_positions(*run, now);
     EXPECT_EQ(now, angles);
     bad.assign(14, 0.25);

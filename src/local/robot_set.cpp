@@ -12,20 +12,6 @@ namespace roboss {
 
 namespace {
 
-/// Calls change(run, robot, axis, &value, check) for each axis of each robot: first, with `check`, to learn
-/// whether it would be refused.
-template <class Change>
-Result<> change_joints(const RobotSet& set, RunAccess& run, std::span<const double> values, Change change) {
-    ROBOSS_CHECK(values.size() == set.size() * set.axes().size(), std::to_string(values.size()) + " numbers");
-    for (const bool check : {true, false}) {
-        const double* from = values.data();
-        for (const RobotId robot : set.robots())
-            for (const JointAxis& axis : set.axes())
-                if (Result<> done = change(run, robot, axis, from++, check); !done) return done;
-    }
-    return Ok{};
-}
-
 /// One value of each axis of each robot, row by row.
 void read_joints(const RobotSet& set, const RunAccess& run, double JointState::*value,
                  std::span<double> out) {
@@ -141,25 +127,35 @@ Result<> RobotSet::set_twists(RunAccess& run, std::span<const double> twists) co
     });
 }
 
+/// One order for each joint of each robot: all, or, if one is refused, none.
+Result<> RobotSet::change_joints(RunAccess& run, std::span<const double> values,
+                                 std::vector<double> SetJointState::*kind) const {
+    ROBOSS_CHECK(values.size() == size() * axes_.size(), std::to_string(values.size()) + " numbers");
+    std::vector<Order> orders;
+    orders.reserve(values.size());
+    const double* from = values.data();
+    for (const RobotId robot : robots_)
+        for (std::size_t k = 0; k < axes_.size(); ++k) {
+            if (axes_[k].axis == 0) {
+                SetJointState state;
+                state.joint = axes_[k].joint;
+                orders.push_back({run.tick(), ClientId(0U), 0, robot, std::move(state)});
+            }
+            (std::get<SetJointState>(orders.back().action).*kind).push_back(*from++);
+        }
+    for (const Order& order : orders)
+        if (Result<> fine = check_order(*model_, order); !fine) return fine;
+    for (const Order& order : orders)
+        if (Result<> done = run.change(order.robot, order.action); !done) return done;
+    return Ok{};
+}
+
 Result<> RobotSet::set_joint_positions(RunAccess& run, std::span<const double> positions) const {
-    return change_joints(*this, run, positions,
-                         [&](RunAccess& r, RobotId robot, const JointAxis& a, const double* x, bool check) {
-                             const Joint& joint = type_->joints[a.joint.index()];
-                             if (!joint_type(joint.kind).is_isotropic())
-                                 return check ? r.check_joint_change(robot, a.joint, a.axis, *x, {})
-                                              : r.change_joint(robot, a.joint, a.axis, *x, {});
-                             if (a.axis > 0) return Result<>(Ok{});  // with the first one
-                             return check ? r.check_ball_change(robot, a.joint, vec3_at(x))
-                                          : r.change_ball_joint(robot, a.joint, vec3_at(x));
-                         });
+    return change_joints(run, positions, &SetJointState::position);
 }
 
 Result<> RobotSet::set_joint_velocities(RunAccess& run, std::span<const double> velocities) const {
-    return change_joints(*this, run, velocities,
-                         [](RunAccess& r, RobotId robot, const JointAxis& a, const double* x, bool check) {
-                             return check ? r.check_joint_change(robot, a.joint, a.axis, {}, *x)
-                                          : r.change_joint(robot, a.joint, a.axis, {}, *x);
-                         });
+    return change_joints(run, velocities, &SetJointState::velocity);
 }
 
 Result<> RobotSet::set_joints(RunAccess& run, std::span<const std::size_t> columns, MotorMode mode,

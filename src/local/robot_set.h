@@ -77,6 +77,8 @@ class RobotSet {
     using ActionOfRow = std::function<Action(std::size_t row, std::size_t k)>;
     Result<> give(RunAccess& run, std::size_t orders_per_row, const ActionOfRow& action) const;
     Result<> change(RunAccess& run, const ActionOfRow& action) const;
+    Result<> change_joints(RunAccess& run, std::span<const double> values,
+                           std::vector<double> SetJointState::*kind) const;
 
     std::shared_ptr<const Model> model_;
     std::vector<RobotId> robots_;

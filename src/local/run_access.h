@@ -3,7 +3,6 @@
 #pragma once
 
 #include <memory>
-#include <optional>
 #include <span>
 #include <vector>
 
@@ -38,22 +37,6 @@ class RunAccess : private SensorSources {
     virtual Result<> order(std::vector<Order> orders) = 0;
     /// Changes a state: at once where the run is in this process, else as an order.
     virtual Result<> change(RobotId robot, const Action& action) = 0;
-    /// Puts one axis of a joint at a position (rad or m), or gives it a velocity (rad/s or m/s), at once. An
-    /// Error: there is no such robot, joint or axis; it closes a loop ("loop-joint"), or is a ball joint with
-    /// a position ("no-position": see change_ball_joint()); the number is not finite or too large; the run is
-    /// elsewhere ("remote").
-    virtual Result<> change_joint(RobotId robot, JointId joint, int axis, std::optional<double> position,
-                                  std::optional<double> velocity) = 0;
-    /// Why change_joint() would refuse.
-    virtual Result<> check_joint_change(RobotId robot, JointId joint, int axis,
-                                        std::optional<double> position,
-                                        std::optional<double> velocity) const = 0;
-    /// Puts a ball joint at a rotation vector (rad, of the child in the joint frame), at once. An Error:
-    /// there is no such robot or joint; it is no ball joint ("no-ball"), or closes a loop ("loop-joint"); the
-    /// vector is not finite; the run is elsewhere ("remote").
-    virtual Result<> change_ball_joint(RobotId robot, JointId joint, const Vec3& rotation) = 0;
-    /// Why change_ball_joint() would refuse.
-    virtual Result<> check_ball_change(RobotId robot, JointId joint, const Vec3& rotation) const = 0;
 
     /// Reading of sensor number `sensor` (RobotType::sensors) at tick(), with noise. `<update_rate>` has no
     /// effect: each call measures. Returns an Error if there is no such robot or sensor, or if the sensor

@@ -131,6 +131,32 @@ struct Check {
                          kFiniteRemedy, "not-finite"};
         return check_target("order for joint '" + joint.name + "' of " + called(model, order), a);
     }
+    Result<> operator()(const SetJointState& a) const {
+        if (a.joint.index() >= type.joints.size())
+            return Error{"state of a joint that " + called(model, order) + " does not have",
+                         "see `roboss check` for its joints", "no-joint"};
+        const Joint& joint = type.joints[a.joint.index()];
+        const auto what = [&] { return "state of joint '" + joint.name + "' of " + called(model, order); };
+        if (joint.loop >= 0)
+            return Error{what() + ": it closes a loop, and follows from the other joints", "set those",
+                         "loop-joint"};
+        const auto axes = static_cast<std::size_t>(joint.nv);
+        for (const auto* values : {&a.position, &a.velocity})
+            if (!values->empty() && values->size() != axes)
+                return Error{what() + " has " + std::to_string(values->size()) + " values; the joint has " +
+                                 std::to_string(axes) + " axes",
+                             "give one value for each axis, of a ball joint a rotation vector", "bad-values"};
+        if (a.position.empty() && a.velocity.empty())
+            return Error{what() + " has neither a position nor a velocity", "give one of them, or both",
+                         "bad-values"};
+        for (const double x : a.position)
+            if (Result<> fine = check_state(what, "position", x, kOrderLimits.position, "rad or m"); !fine)
+                return fine;
+        for (const double x : a.velocity)
+            if (Result<> fine = check_state(what, "velocity", x, kOrderLimits.speed, "rad/s or m/s"); !fine)
+                return fine;
+        return Ok{};
+    }
     Result<> operator()(const Command& a) const {
         if (a.channel >= type.channels.size())
             return Error{"command number " + std::to_string(a.channel) + " of " + called(model, order) +
@@ -175,6 +201,13 @@ struct Check {
             return Ok{};
         return Error{"detach order of " + called(model, order) + " names no other robot",
                      "name the robot that is held, or none to let go of all", "no-robot"};
+    }
+    template <class What>
+    static Result<> check_state(const What& what, const char* name, double value, double limit,
+                                const char* unit) {
+        if (!std::isfinite(value)) return Error{what() + " is not finite", kFiniteRemedy, "not-finite"};
+        if (std::fabs(value) <= limit) return Ok{};
+        return check_limits(what(), {{name, value, limit, unit}});
     }
     static Result<> check_duration(const std::string& what, Tick duration) {
         if (duration > kDurationMax)
@@ -241,6 +274,20 @@ struct Apply {
         if (motor.mode != a.mode) motor.impulse = motor.load = 0;
         motor.mode = a.mode, motor.target = a.target;
         motor.max_effort = a.max_effort < 0 ? bound : std::fmin(a.max_effort, bound);
+    }
+    void operator()(const SetJointState& a) const {
+        const Joint& joint = type.joints[a.joint.index()];
+        double* const q = &state.q[static_cast<std::size_t>(joint.q_index)];
+        double* const v = &state.v[static_cast<std::size_t>(joint.v_index)];
+        if (!a.position.empty() && joint_type(joint.kind).is_isotropic()) {
+            const Quat turned = exponential(Vec3{a.position[0], a.position[1], a.position[2]});
+            q[0] = turned.w, q[1] = turned.x, q[2] = turned.y, q[3] = turned.z;
+        } else {
+            for (std::size_t i = 0; i < a.position.size(); ++i)
+                q[joint.axis_offset(static_cast<int>(i))] = a.position[i];
+        }
+        for (std::size_t i = 0; i < a.velocity.size(); ++i)
+            v[joint.axis_offset(static_cast<int>(i))] = a.velocity[i];
     }
     void operator()(const Command& a) const {
         const ChannelInfo& channel = type.channels[a.channel];

@@ -52,6 +52,17 @@ struct Pull {
     friend bool operator==(const Pull&, const Pull&) = default;
 };
 
+/// Level 1: puts a joint at a position, or gives it a velocity, or both, at once; motors keep their
+/// setpoints. A position beyond the joint's limits is pushed back within some ticks. Not for joints that
+/// close loops: their states follow from the others.
+struct SetJointState {
+    JointId joint;                 ///< of the robot's type
+    std::vector<double> position;  ///< rad or m, of each axis; ball: rotation vector; empty: it is kept
+    std::vector<double> velocity;  ///< rad/s or m/s, of each axis; empty: it is kept
+    /// Compares all members.
+    friend bool operator==(const SetJointState&, const SetJointState&) = default;
+};
+
 /// Level 4: latches a setpoint of one degree of freedom of a joint. A negative max_effort means the joint's
 /// own bound.
 struct SetJoint {
@@ -93,7 +104,8 @@ struct Detach {
 };
 
 /// What an order does.
-using Action = std::variant<SetPose, SetVelocity, ApplyWrench, SetJoint, Command, Attach, Detach, Pull>;
+using Action =
+    std::variant<SetPose, SetVelocity, ApplyWrench, SetJoint, Command, Attach, Detach, Pull, SetJointState>;
 
 /// An action on one robot at one tick.
 struct Order {
@@ -110,8 +122,8 @@ struct Order {
 /// little that sums and products of a step stay numbers. One order beyond them would end the run for
 /// everybody.
 struct OrderLimits {
-    double position = 1e9;   ///< m: coordinates of a pose; rad or m: target of a joint's position
-    double speed = 1e5;      ///< m/s: of a base; m/s or rad/s: target of a joint's velocity
+    double position = 1e9;   ///< m: coordinates of a pose; rad or m: of a joint, and its target
+    double speed = 1e5;      ///< m/s: of a base; m/s or rad/s: of a joint, and its target
     double turn_rate = 1e5;  ///< rad/s, of a base
     double force = 1e9;      ///< N: on a link; N or N m: target of a joint's effort
     double torque = 1e9;     ///< N m, on a link

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <functional>
 #include <limits>
 
@@ -50,6 +51,51 @@ TEST_F(CheckOrder, AcceptsWhatMakesSense) {
     EXPECT_EQ(refusal(kCar, SetJoint{joint(kCar, "wheel_0"), 0, MotorMode::kVelocity, 5, -1}), "");
     EXPECT_EQ(refusal(kTree, SetJoint{joint(kTree, "shoulder"), 1, MotorMode::kPosition, 0.5, 2}), "");
     EXPECT_EQ(refusal(kTree, SetJoint{joint(kTree, "ball"), 2, MotorMode::kEffort, 0.5, 2}), "");
+}
+
+TEST_F(CheckOrder, TakesStatesOfJointsWithOneNumberForEachAxis) {
+    const JointId wheel = joint(kCar, "wheel_0"), shoulder = joint(kTree, "shoulder"),
+                  ball = joint(kTree, "ball");
+    EXPECT_EQ(refusal(kCar, SetJointState{wheel, {0.5}, {}}), "");
+    EXPECT_EQ(refusal(kCar, SetJointState{wheel, {}, {-2}}), "");
+    EXPECT_EQ(refusal(kTree, SetJointState{shoulder, {0.5, 1}, {1, 2}}), "");
+    EXPECT_EQ(refusal(kTree, SetJointState{ball, {0.5, 1, 2}, {1, 2, 3}}), "");
+    expect_refused(kCar, SetJointState{wheel, {0.5, 1}, {}}, {"wheel_0", "car_7", "2 values", "1 axes"});
+    expect_refused(kTree, SetJointState{ball, {0.5}, {}}, {"ball", "rotation vector"});
+    expect_refused(kCar, SetJointState{wheel, {}, {}}, {"wheel_0", "neither"});
+    expect_refused(kCar, SetJointState{wheel, {kNan}, {}}, {"wheel_0", "finite"});
+    expect_refused(kCar, SetJointState{wheel, {}, {kInfinity}}, {"wheel_0", "finite"});
+    expect_refused(kCar, SetJointState{wheel, {1.1e9}, {}}, {"position", "beyond the limit"});
+    expect_refused(kCar, SetJointState{wheel, {}, {-1.1e5}}, {"velocity", "beyond the limit"});
+    expect_refused(kCar, SetJointState{JointId(std::size_t{99}), {1}, {}}, {"car_7", "does not have"});
+}
+
+TEST_F(CheckOrder, StatesOfJointsAreWhatOneReadsThen) {
+    RobotState state = initial_state(*model_, kTree);
+    const JointId shoulder = joint(kTree, "shoulder"), ball = joint(kTree, "ball");
+    const RobotType& type = model_->type_of(kTree);
+    state.rest.still_ticks = 7;
+    const RobotState before = state;
+    const auto give = [&](Action action) {
+        apply_order(*model_, {0, ClientId(), 0, kTree, std::move(action)}, state);
+    };
+    give(SetJointState{shoulder, {0.5, -1}, {}});
+    give(SetJointState{ball, {0.3, 0, 0.4}, {1, 2, 3}});
+    EXPECT_EQ(state.rest.still_ticks, 0) << "it wakes";
+    EXPECT_EQ(state.motors, before.motors) << "setpoints are kept";
+    const auto q = [&](JointId id, int axis) {
+        const Joint& j = type.joints[id.index()];
+        return state.q[static_cast<std::size_t>(j.q_index + j.axis_offset(axis))];
+    };
+    EXPECT_EQ(q(shoulder, 0), 0.5);
+    EXPECT_EQ(q(shoulder, 1), -1);
+    const auto at = static_cast<std::size_t>(type.joints[ball.index()].q_index);
+    EXPECT_NEAR(state.q[at], std::cos(0.25), 1e-12) << "half of an angle of 0.5 rad";
+    EXPECT_NEAR(state.q[at + 1], 0.6 * std::sin(0.25), 1e-12);
+    EXPECT_NEAR(state.q[at + 3], 0.8 * std::sin(0.25), 1e-12);
+    const auto v = static_cast<std::size_t>(type.joints[ball.index()].v_index);
+    EXPECT_EQ(state.v[v + 1], 2);
+    EXPECT_EQ(state.v.size(), before.v.size());
 }
 
 TEST_F(CheckOrder, RefusesAnUnknownRobot) {

@@ -36,6 +36,7 @@ struct StageTimes {
     std::uint64_t of(Stage stage) const { return ns[static_cast<std::size_t>(stage)]; }
     std::uint64_t sum() const;
     StageTimes& operator+=(const StageTimes& other);
+    bool operator==(const StageTimes&) const = default;
 };
 
 using StageNow = std::uint64_t (*)();  // a monotone time in ns

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <functional>
 
 #include "physics/stage.h"
 
@@ -17,6 +16,7 @@ struct SolverProfile {
     std::uint64_t iterations = 0;       // Newton iterations of these
     std::uint64_t iterations_most = 0;  // of one contact island in one tick
     std::uint64_t largest_island = 0;   // robots
+    std::uint64_t most_contacts = 0;    // points and near misses of one island of several robots
     std::uint64_t largest_part = 0;     // robots that were solved together (contact/island_parts.h)
     double residual = 0;                // worst relative residual of the momentum balance
     std::uint64_t friction_solves = 0;  // parts with friction at contacts that push
@@ -42,6 +42,7 @@ struct SolverProfile {
         islands += other.islands, iterations += other.iterations;
         iterations_most = std::max(iterations_most, other.iterations_most);
         largest_island = std::max(largest_island, other.largest_island);
+        most_contacts = std::max(most_contacts, other.most_contacts);
         largest_part = std::max(largest_part, other.largest_part);
         residual = std::max(residual, other.residual);
         friction_solves += other.friction_solves, friction_misses += other.friction_misses;
@@ -59,14 +60,7 @@ struct StepProfile {
         stages += other.stages, solver += other.solver;
         return *this;
     }
-};
-
-/// Receives the profile of a run's steps; if `now` is null, nothing is measured.
-struct StepMeter {
-    StageNow now = nullptr;
-    std::function<void(const StepProfile&)> add{};  // called with the sum of each window's steps
-
-    explicit operator bool() const { return now != nullptr; }
+    bool operator==(const StepProfile&) const = default;
 };
 
 }  // namespace roboss

@@ -154,11 +154,6 @@ Result<> RemoteRun::change(RobotId robot, const Action& action) {
     return order({Order{0, ClientId(0U), 0, robot, action}});
 }
 
-Error RemoteRun::not_here() {
-    return {"joints of a run on a cluster cannot be set at once", "order setpoints of their motors",
-            "remote"};
-}
-
 Result<std::optional<ControlOutcome>> RemoteRun::ask(const ControlAction& action, const GoOn& go_on,
                                                      bool even_outdated) {
     client_->control(action);

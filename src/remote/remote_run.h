@@ -53,15 +53,6 @@ class RemoteRun final : public RunAccess {
 
     Result<> order(std::vector<Order> orders) override;
     Result<> change(RobotId robot, const Action& action) override;
-    Result<> change_joint(RobotId, JointId, int, std::optional<double>, std::optional<double>) override {
-        return not_here();
-    }
-    Result<> check_joint_change(RobotId, JointId, int, std::optional<double>,
-                                std::optional<double>) const override {
-        return not_here();
-    }
-    Result<> change_ball_joint(RobotId, JointId, const Vec3&) override { return not_here(); }
-    Result<> check_ball_change(RobotId, JointId, const Vec3&) const override { return not_here(); }
 
     /// A request to the run itself: pause, status ... Errors as of step().
     Result<ControlOutcome> control(const ControlAction& action, const GoOn& go_on);
@@ -86,7 +77,6 @@ class RemoteRun final : public RunAccess {
               std::unique_ptr<BusClient> client);
     static Result<std::unique_ptr<RemoteRun>> join(const RemoteOptions& options, std::unique_ptr<DdsBus> bus,
                                                    const GoOn& go_on);
-    static Error not_here();
     /// Waits until done(), advancing the Client; also while the Model is another one, if `even_outdated`.
     Result<> wait_until(const std::function<bool()>& done, const GoOn& go_on, bool even_outdated = false);
     /// The answer to a request; `even_outdated`: none if the run is outdated() before it comes.

@@ -62,7 +62,6 @@ Simulation::Simulation(std::shared_ptr<const Model> model, const SimulationOptio
       bus_(bus ? std::move(bus) : std::make_unique<InProcessBus>()),
       pool_(options.threads),
       lanes_(options.lanes),
-      meter_(options.meter),
       observer_(options.observer),
       controller_(model_, controller_options(options, programs),
                   starting_point(*model_, from, controller_options(options, programs).clients)),
@@ -82,7 +81,6 @@ Simulation::Simulation(std::shared_ptr<const Model> model, const SimulationOptio
 void Simulation::add_simulator() {
     SimulatorOptions role;
     role.lanes = lanes_;
-    role.meter = meter_;
     role.name = "inside";
     simulators_.push_back(
         std::make_unique<Simulator>(model_, Address{Role::kSimulator, ++instance_}, role, pool_));

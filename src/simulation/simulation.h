@@ -34,7 +34,6 @@ struct SimulationOptions {
     std::vector<std::string> clients_awaited;
     unsigned threads = 1;            // that step islands, shared by the Simulators of this process
     std::size_t lanes = kMostLanes;  // most robots of a type stepped at once
-    StepMeter meter{};               // who profiles the steps in this process
     std::string world_file;          // for saved runs
     /// Called in every round: advances a viewer, say. No result may depend on it.
     std::function<void(Bus&)> observer;
@@ -108,6 +107,10 @@ class Simulation {
     void answer(const ControlCall& call, ControlOutcome outcome) {
         controller_.control().answer(*bus_, call, std::move(outcome));
     }
+    /// Whether Simulators measure their steps from the next window on.
+    void measure(bool wanted) { controller_.measure(wanted); }
+    /// Of all windows measured since the last call, summed over Simulators.
+    StepProfile take_profile() { return controller_.take_profile(); }
     /// Length of the next windows in ticks; 0: adaptive.
     void set_window(Tick ticks) { controller_.set_window(ticks); }
     /// What the next Simulation on the same Bus has to know.
@@ -148,7 +151,6 @@ class Simulation {
     std::unique_ptr<Bus> bus_;
     ThreadPool pool_;
     std::size_t lanes_;  // robots of a type stepped at once
-    StepMeter meter_;
     std::function<void(Bus&)> observer_;
     std::uint64_t instance_ = 0;  // of the last role made here
     Controller controller_;

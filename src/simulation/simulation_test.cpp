@@ -74,6 +74,32 @@ TEST_F(SimulationTest, StopsAtEachTargetAndHasTheStatesThere) {
     EXPECT_EQ(simulation->hash(), expected_);
 }
 
+TEST_F(SimulationTest, AProfileSumsOverSimulatorsAndChangesNoBit) {
+    SolverProfile alone;
+    for (const std::size_t simulators : {std::size_t{1}, std::size_t{3}}) {
+        const auto simulation = make(model_, simulators);
+        ASSERT_TRUE(simulation->submit(push(100)).ok());
+        run_until(*simulation, 100);
+        EXPECT_EQ(simulation->take_profile(), StepProfile{}) << "nobody asked for it";
+        simulation->measure(true);
+        simulation->set_window(10);
+        run_until(*simulation, 200);
+        const StepProfile profile = simulation->take_profile();
+        EXPECT_GT(profile.stages.of(Stage::kVelocities), 0u);
+        EXPECT_GT(profile.stages.of(Stage::kNarrowPhase), 0u);
+        EXPECT_GE(profile.solver.islands, 100u);
+        EXPECT_GE(profile.solver.largest_island, 1u);
+        EXPECT_EQ(simulation->take_profile(), StepProfile{}) << "it was taken";
+        simulation->measure(false);
+        run_until(*simulation, kEnd);
+        EXPECT_EQ(simulation->take_profile(), StepProfile{});
+        EXPECT_EQ(simulation->hash(), expected_);
+        if (simulators == 1) alone = profile.solver;
+        EXPECT_EQ(profile.solver.largest_island, alone.largest_island);
+        EXPECT_EQ(profile.solver.residual, alone.residual) << "the worst of the same islands";
+    }
+}
+
 class Idle : public ControlProgram {
     void control(Client&) override {}
 };

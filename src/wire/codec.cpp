@@ -76,6 +76,16 @@ void short_list(Reader& a, std::vector<T>& values, const Each& each) {
     for (std::size_t i = 0; i < values.size() && !a.failed(); ++i) each(values[i]);
 }
 
+/// What is to be encoded, or what is to be filled.
+template <class T>
+const T& given(Writer&, const std::optional<T>& value) {
+    return *value;
+}
+template <class T>
+T& given(Reader&, std::optional<T>& value) {
+    return value.emplace();
+}
+
 /// Ids of a list are mostly close to each other: encodes the signed difference to the last one.
 inline void next_robot(Writer& a, RobotId robot, std::uint32_t& last) {
     const std::uint32_t gap = robot.value - last;
@@ -132,6 +142,7 @@ template <class A> void field(A& a, Of<A, Pull>& m) {
     auto& [link, p_L, target_W, rate, max_force, duration] = m;
     fields(a, link, p_L, target_W, rate, max_force, duration);
 }
+template <class A> void field(A& a, Of<A, SetJointState>& m) { auto& [joint, position, velocity] = m; fields(a, joint, position, velocity); }
 template <class A> void field(A& a, Of<A, Order>& m) { auto& [apply_at, client, sequence, robot, action] = m; fields(a, apply_at, client, sequence, robot, action); }
 template <class A> void field(A& a, Of<A, Hello>& m) { auto& [model_hash, threads, name] = m; fields(a, model_hash, threads, name); }
 template <class A> void field(A& a, Of<A, Welcome>& m) { auto& [simulator] = m; fields(a, simulator); }
@@ -142,9 +153,9 @@ template <class A> void field(A& a, Of<A, LeaveRequest>& m) { auto& [simulator] 
 template <class A> void field(A& a, Of<A, Goodbye>& m) { auto& [simulator] = m; fields(a, simulator); }
 template <class A> void field(A& a, Of<A, Assignment>& m) {
     auto& [epoch, window, attempt, simulator, window_from, from, until, island_offsets, robots, hand_offs, transfers, orders, ahead, keep,
-           release_before, due_ns] = m;
+           release_before, due_ns, measured] = m;
     fields(a, epoch, window, attempt, simulator, window_from, from, until, island_offsets, robots, hand_offs, transfers, orders, ahead, keep,
-           release_before, due_ns);
+           release_before, due_ns, measured);
 }
 template <class A> void field(A& a, Of<A, OrdersAhead>& m) { auto& [window, simulator, orders] = m; fields(a, window, simulator, orders); }
 template <class A> void field(A& a, Of<A, Late>& m) { auto& [epoch, window, attempt, needs_ns] = m; head(a, epoch, window, attempt); compact(a, needs_ns); }
@@ -160,8 +171,19 @@ template <class A> void field(A& a, Of<A, IslandResult>& m) {
     if ((told & kFailure) != 0) fields(a, failed, failed_at, failed_joint, beyond_numbers);
     if constexpr (A::kReading) if (told != told_of(m)) a.fail("an island lacks a field that its flags announce");
 }
+template <class A> void field(A& a, Of<A, SolverProfile>& m) {
+    auto& [islands, iterations, iterations_most, largest_island, most_contacts, largest_part, residual, friction_solves, friction_misses,
+           friction_error] = m;
+    fields(a, islands, iterations, iterations_most, largest_island, most_contacts, largest_part, residual, friction_solves, friction_misses,
+           friction_error);
+}
+template <class A> void field(A& a, Of<A, StepProfile>& m) {
+    auto& [stages, solver] = m;
+    for (auto& ns : stages.ns) compact(a, ns);
+    field(a, solver);
+}
 template <class A> void field(A& a, Of<A, WindowResult>& m) {
-    auto& [epoch, window, attempt, left, robots, earlier, islands] = m;
+    auto& [epoch, window, attempt, left, robots, earlier, islands, profile] = m;
     head(a, epoch, window, attempt);
     compact(a, left);
     std::uint32_t last = 0;
@@ -172,6 +194,9 @@ template <class A> void field(A& a, Of<A, WindowResult>& m) {
     });
     short_list(a, earlier, [&](auto& e) { auto& [robot, swept] = e; next_robot(a, robot, last); field(a, swept); });
     short_list(a, islands, [&](auto& i) { field(a, i); });
+    bool measured = profile.has_value();
+    field(a, measured);
+    if (measured) field(a, given(a, profile));
 }
 template <class A> void field(A& a, Of<A, StateRequest>& m) { auto& [tick, robots, window] = m; fields(a, tick, window, robots); }
 template <class A> void field(A& a, Of<A, StateReply>& m) { auto& [states, window] = m; fields(a, window, states); }
@@ -190,6 +215,7 @@ template <class A> void field(A& a, Of<A, RunOver>& m) { auto& [reason] = m; fie
 template <class A> void field(A& a, Of<A, ClientUnknown>& m) { auto& [client] = m; fields(a, client); }
 template <class A> void field(A&, Of<A, GetGroups>&) { static_assert(std::is_empty_v<GetGroups>); }
 template <class A> void field(A&, Of<A, GetBounds>&) { static_assert(std::is_empty_v<GetBounds>); }
+template <class A> void field(A&, Of<A, GetProfile>&) { static_assert(std::is_empty_v<GetProfile>); }
 template <class A> void field(A&, Of<A, PauseRun>&) { static_assert(std::is_empty_v<PauseRun>); }
 template <class A> void field(A&, Of<A, ResumeRun>&) { static_assert(std::is_empty_v<ResumeRun>); }
 template <class A> void field(A&, Of<A, AddSimulator>&) { static_assert(std::is_empty_v<AddSimulator>); }
@@ -204,6 +230,13 @@ template <class A> void field(A&, Of<A, GetTimeline>&) { static_assert(std::is_e
 template <class A> void field(A& a, Of<A, PreviewRun>& m) { auto& [branch, time_s, patience_ms] = m; fields(a, branch, time_s, patience_ms); }
 template <class A> void field(A& a, Of<A, AddBookmark>& m) { auto& [name, branch, time_s] = m; fields(a, name, branch, time_s); }
 template <class A> void field(A& a, Of<A, RemoveBookmark>& m) { auto& [id] = m; fields(a, id); }
+template <class A> void field(A& a, Of<A, StageTime>& m) { auto& [name, seconds] = m; fields(a, name, seconds); }
+template <class A> void field(A& a, Of<A, RunProfile>& m) {
+    auto& [ticks, stages, islands, largest_island, most_contacts, largest_part, iterations, iterations_most, residual, friction_solves,
+           friction_misses, friction_error, friction_tolerance] = m;
+    fields(a, ticks, stages, islands, largest_island, most_contacts, largest_part, iterations, iterations_most, residual, friction_solves,
+           friction_misses, friction_error, friction_tolerance);
+}
 template <class A> void field(A& a, Of<A, TimelineBranch>& m) { auto& [id, parent, begin_s, first_s, end_s, reason] = m; fields(a, id, parent, begin_s, first_s, end_s, reason); }
 template <class A> void field(A& a, Of<A, TimelineBookmark>& m) { auto& [id, branch, time_s, name] = m; fields(a, id, branch, time_s, name); }
 template <class A> void field(A& a, Of<A, RunTimeline>& m) { auto& [serial, branch, branches, bookmarks] = m; fields(a, serial, branch, branches, bookmarks); }

@@ -21,7 +21,15 @@ std::vector<Order> some_orders() {
             {13, ClientId(2u), 3, kRobot, Command{2, {0.5, -1, 3}}},
             {14, ClientId(2u), 4, kRobot, Attach{LinkId(1u), kOther, LinkId(3u), 0.25, 40, 2}},
             {15, ClientId(2u), 5, kRobot, Detach{kOther}},
-            {16, ClientId(2u), 6, kRobot, Pull{LinkId(1u), {1, 2, 3}, {4, 5, 6}, 7, 8, 9}}};
+            {16, ClientId(2u), 6, kRobot, Pull{LinkId(1u), {1, 2, 3}, {4, 5, 6}, 7, 8, 9}},
+            {17, ClientId(2u), 7, kOther, SetJointState{JointId(1u), {0.25}, {-1, 2, 3}}}};
+}
+
+StepProfile a_profile() {
+    StepProfile profile;
+    for (std::size_t i = 0; i < kStages; ++i) profile.stages.ns[i] = 1000 * i + 1;
+    profile.solver = {9, 8, 7, 6, 5, 4, 1e-9, 3, 2, 0.5};
+    return profile;
 }
 
 /// Of each kind one in which no field has the value that it has in a message just made, so that none can get
@@ -42,7 +50,8 @@ std::vector<Message> one_of_each() {
                           16,
                           {kRobot},
                           8,
-                          3'000'000};
+                          3'000'000,
+                          true};
     WindowResult result{
         2,
         17,
@@ -50,7 +59,8 @@ std::vector<Message> one_of_each() {
         0,
         {{kRobot, {{-1, 0, 2}, {3, 4, 5}}, {1, 2, 3}, {4, 5, 6}, 77}},
         {{kOther, {{-6, 7, 8}, {9, 10, 11}}}},
-        {{100, 5, 2, kRobot, 12, JointId(3u), true}, {1ull << 63, 0x3FFF, 0x4000, {}, 0, {}, false}}};
+        {{100, 5, 2, kRobot, 12, JointId(3u), true}, {1ull << 63, 0x3FFF, 0x4000, {}, 0, {}, false}},
+        a_profile()};
     StateReply reply{{12, {kRobot, kOther}, {2, 3}, {1, 2, 3, 4, 5}}, 17};
     std::vector<ClientOrder> orders;
     for (const Order& o : some_orders()) orders.push_back({o.sequence, o.robot, o.action});
@@ -119,7 +129,8 @@ std::vector<Message> every_control_message() {
           ControlAction(AddBookmark{"jump", 1, 2.5}),
           ControlAction(RemoveBookmark{3}),
           ControlAction(CopyRobots{{{"a", "b", {{1, 2, 3}, {}}}, {"a", "c", {}}}}),
-          ControlAction(RestoreRobots{{"a", "b"}})})
+          ControlAction(RestoreRobots{{"a", "b"}}),
+          ControlAction(GetProfile{})})
         all.emplace_back(ControlRequest{all.size() + 1, action});
     const MemberStatus member{2, "host/7", MemberState::kLost, 4, 10, 5, 7.5, 0.9, {1, 2, 3, 4}};
     const RunStatus status{"w.sdf", 500,      1.0,   true, true,         2.0, 3,  16, 40,  2, 0.95, 3.5,
@@ -132,7 +143,8 @@ std::vector<Message> every_control_message() {
           ControlOutcome(ControlRefused(Error{"no", "ask later", "busy"})), ControlOutcome(status),
           ControlOutcome(RobotGroups{9, {0, -1}, {0, 1}}), ControlOutcome(RobotBounds{9, {box}}),
           ControlOutcome(RunTimeline{3, 2, {{2, 1, 0.5, 0.5, 2, "rewound"}}, {{1, 2, 1.5, "jump"}}}),
-          ControlOutcome(RunPreview{9, 2, 750, 1.5, true, 1, 2, {1, 2, 3}})})
+          ControlOutcome(RunPreview{9, 2, 750, 1.5, true, 1, 2, {1, 2, 3}}),
+          ControlOutcome(RunProfile{100, {{"orders", 0.25}}, 7, 6, 5, 4, 3, 2, 1e-9, 8, 1, 0.5, 1e-3})})
         all.emplace_back(ControlReply{all.size(), outcome});
     return all;
 }

@@ -111,7 +111,8 @@ const char* control_verb(const ControlAction& action) {
                                        "bookmark",
                                        "bookmark remove",
                                        "copy",
-                                       "restore"};
+                                       "restore",
+                                       "profile"};
     static_assert(kVerbs.size() == std::variant_size_v<ControlAction>);
     return kVerbs[action.index()];
 }
@@ -119,7 +120,7 @@ const char* control_verb(const ControlAction& action) {
 bool only_asks(const ControlAction& action) {
     return std::holds_alternative<GetStatus>(action) || std::holds_alternative<GetGroups>(action) ||
            std::holds_alternative<GetBounds>(action) || std::holds_alternative<GetTimeline>(action) ||
-           std::holds_alternative<PreviewRun>(action);
+           std::holds_alternative<PreviewRun>(action) || std::holds_alternative<GetProfile>(action);
 }
 
 const char* broken_rule(const ControlAction& action) {

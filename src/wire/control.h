@@ -32,6 +32,11 @@ struct GetBounds {
     /// Compares all members.
     friend bool operator==(const GetBounds&, const GetBounds&) = default;
 };
+/// Asks for RunProfile. The run measures its steps for a few seconds from then on, which costs some per cent.
+struct GetProfile {
+    /// Compares all members.
+    friend bool operator==(const GetProfile&, const GetProfile&) = default;
+};
 
 /// Asks for RunTimeline: the branches and bookmarks of the journal.
 struct GetTimeline {
@@ -208,10 +213,11 @@ struct RestoreRobots {
 };
 
 /// A request to the run.
-using ControlAction = std::variant<GetStatus, GetGroups, GetBounds, PauseRun, ResumeRun, StepRun, SetSpeed,
-                                   SetWindow, AddSimulator, RemoveSimulator, KillSimulator, SaveRun, QuitRun,
-                                   RewindRun, ChangeAccuracy, AddModels, RemoveRobots, ResetRun, GetTimeline,
-                                   PreviewRun, AddBookmark, RemoveBookmark, CopyRobots, RestoreRobots>;
+using ControlAction =
+    std::variant<GetStatus, GetGroups, GetBounds, PauseRun, ResumeRun, StepRun, SetSpeed, SetWindow,
+                 AddSimulator, RemoveSimulator, KillSimulator, SaveRun, QuitRun, RewindRun, ChangeAccuracy,
+                 AddModels, RemoveRobots, ResetRun, GetTimeline, PreviewRun, AddBookmark, RemoveBookmark,
+                 CopyRobots, RestoreRobots, GetProfile>;
 
 /// The request's name on the command line: "pause", "step" ...
 const char* control_verb(const ControlAction& action);
@@ -299,6 +305,32 @@ struct RobotBounds {
     /// Compares all members.
     friend bool operator==(const RobotBounds&, const RobotBounds&) = default;
 };
+/// A stage of the steps (docs/physics.md), and the time it took.
+struct StageTime {
+    std::string name;    ///< "forward kinematics", say
+    double seconds = 0;  ///< wall time, summed over threads and Simulators
+    /// Compares all members.
+    friend bool operator==(const StageTime&, const StageTime&) = default;
+};
+/// Where the time of the steps goes, and what the solver does: of the last second that was measured.
+/// Windows that were stepped again count again.
+struct RunProfile {
+    Tick ticks = 0;                     ///< that were committed in it; 0: nothing was measured yet
+    std::vector<StageTime> stages;      ///< in the order of a tick
+    std::uint64_t islands = 0;          ///< contact islands, counted in each tick
+    std::uint64_t largest_island = 0;   ///< robots of the largest contact island
+    std::uint64_t most_contacts = 0;    ///< contact points and near misses of one island of several robots
+    std::uint64_t largest_part = 0;     ///< the most robots that were solved together
+    std::uint64_t iterations = 0;       ///< of Newton's method, of all islands
+    std::uint64_t iterations_most = 0;  ///< of one island in one tick
+    double residual = 0;                ///< of the momentum balance, relative, in the worst island
+    std::uint64_t friction_solves = 0;  ///< parts with friction at contacts that push
+    std::uint64_t friction_misses = 0;  ///< of these, whose friction is off by more than friction_tolerance
+    double friction_error = 0;  ///< the most that friction is off by, relative to its part's largest impulse
+    double friction_tolerance = 0;  ///< of the accuracy
+    /// Compares all members.
+    friend bool operator==(const RunProfile&, const RunProfile&) = default;
+};
 /// A branch of the journal, as far as the file still has it.
 struct TimelineBranch {
     std::int64_t id = 0;      ///< 1, 2, 3 ...
@@ -362,8 +394,8 @@ struct ControlRefused {
     friend bool operator==(const ControlRefused&, const ControlRefused&) = default;
 };
 /// What became of a request.
-using ControlOutcome =
-    std::variant<ControlDone, ControlRefused, RunStatus, RobotGroups, RobotBounds, RunTimeline, RunPreview>;
+using ControlOutcome = std::variant<ControlDone, ControlRefused, RunStatus, RobotGroups, RobotBounds,
+                                    RunTimeline, RunPreview, RunProfile>;
 
 /// False if the request was refused.
 inline bool is_done(const ControlOutcome& outcome) {

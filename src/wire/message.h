@@ -6,6 +6,7 @@
 #include <array>
 #include <compare>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
@@ -13,6 +14,7 @@
 #include "core/types.h"
 #include "math/box32.h"
 #include "model/order.h"
+#include "physics/step_profile.h"
 #include "wire/control.h"
 #include "wire/robot_result.h"
 #include "wire/view_extras.h"
@@ -117,6 +119,7 @@ struct Assignment {
     /// CPU time that each Simulator is expected to need for the window, or for what a Cut left. A Simulator
     /// that will need more sends Late. 0: no limit.
     std::uint64_t due_ns = 0;
+    bool measured = false;  // its result has a profile
     /// The window within which this assignment begins; 0: it begins at a window's start.
     std::uint64_t mid_window() const { return from > window_from ? window : 0; }
     friend bool operator==(const Assignment&, const Assignment&) = default;
@@ -184,6 +187,7 @@ struct WindowResult {
     std::vector<RobotResult> robots;
     std::vector<EarlierBox> earlier;
     std::vector<IslandResult> islands;
+    std::optional<StepProfile> profile{};  // of a measured assignment
     friend bool operator==(const WindowResult&, const WindowResult&) = default;
 };
 

@@ -93,6 +93,13 @@ class BadInput(RobossTest):
         reports = json.loads(roboss("check", PILE, bad, "--json").stdout)
         self.assertEqual([report["errors"] for report in reports], [0, 2])
 
+    def test_states_of_joints_that_follow_from_others_or_do_not_exist_are_refused(self):
+        world = PILE.parent / "four_bar.sdf"
+        for joint, words in (({"name": "closing", "position": 1}, ["closing", "loop"]), ({"name": "hinge", "position": 1}, ["hinge", "drive"]),
+                             ({"name": "elbow", "position": [1, 2]}, ["elbow", "2 values"]), ({"name": "elbow", "velocity": 1e9}, ["elbow", "limit"])):
+            orders = written("states.jsonl", json.dumps({"t": 0, "robot": "linkage_0", "joint_state": joint}) + "\n")
+            self.refused(["run", world, "--duration", "0.1", "--orders", orders], 1, "states.jsonl:1", "[bad-order]", *words)
+
     def test_an_order_to_an_unknown_robot_stops_before_the_start(self):
         orders = written("orders.jsonl", '{"t":0,"robot":"arm","joint":{"name":"shoulder","effort":1}}\n{"t":0,"robot":"nobody","joint":{}}\n')
         self.refused(["run", PILE, "--duration", "1", "--orders", orders], 1, "orders.jsonl:2", "[bad-order]", "nobody")

@@ -20,6 +20,15 @@ RUNS = {
     "bonds": [WORLDS / "bonds.sdf", "--orders", WORLDS / "bonds.jsonl"],
     "conveyor": [WORLDS / "conveyor.sdf", "--orders", WORLDS / "conveyor.jsonl"],
 }
+# Joints that are put elsewhere while motors hold others.
+ARM = FOLDER / "arm.jsonl"
+ARM.write_text("".join(json.dumps({"t": t, "robot": "arm", **what}) + "\n" for t, what in (
+    (0.1, {"joint": {"name": "elbow", "position": 0.4}}),
+    (0.3, {"joint_state": {"name": "shoulder", "position": 0.7, "velocity": -1.5}}),
+    (0.3, {"joint_state": {"name": "yaw", "velocity": [2]}}),
+    (0.75, {"joint_state": {"name": "elbow", "position": [-0.2]}}),
+    (1.1, {"joint_state": {"name": "bend", "position": 0.5}}))))
+RUNS["arm"] = [WORLDS / "arm.sdf", "--orders", ARM]
 UNTIL = 1.2
 expected = {}
 
@@ -82,7 +91,7 @@ class Journal(RobossTest):
 
     def test_from_any_time_the_run_goes_on_to_the_same_end(self):
         for name, at in (("city", 0.734), ("city", 0.5), ("crossroads", 1.1), ("pile", 0.001),
-                         ("bonds", 0.45), ("bonds", 1.05), ("conveyor", 0.6)):
+                         ("bonds", 0.45), ("bonds", 1.05), ("conveyor", 0.6), ("arm", 0.2), ("arm", 0.75)):
             with self.subTest(world=name, at=at):
                 self.assertEqual(summary(*RUNS[name], "--until", UNTIL, "--from", f"{kept(name)}@{at}")["state_hash"],
                                  undisturbed(name))
@@ -125,14 +134,14 @@ class Journal(RobossTest):
         self.assertEqual(summary(WORLDS / "city.sdf", "--orders", orders, "--until", UNTIL)["state_hash"], undisturbed("city"))
 
     def test_exported_commands_and_attachments_make_the_same_run(self):
-        for name in ("bonds", "conveyor"):
+        for name in ("bonds", "conveyor", "arm"):
             with self.subTest(world=name):
                 orders = FOLDER / f"exported_{name}.jsonl"
                 orders.write_text(roboss("journal", "export", kept(name), "--orders").stdout)
                 self.assertEqual(summary(*RUNS[name][:2], orders, "--until", UNTIL)["state_hash"], undisturbed(name))
 
     def test_killed_at_random_moments_and_started_again_nothing_is_lost(self):
-        for name, seed in (("city", 1), ("city", 2), ("crossroads", 3), ("pile", 4), ("bonds", 5)):
+        for name, seed in (("city", 1), ("city", 2), ("crossroads", 3), ("pile", 4), ("bonds", 5), ("arm", 6)):
             with self.subTest(world=name, seed=seed):
                 print(f"    seed {seed}")
                 file = FOLDER / f"killed_{name}_{seed}.journal"

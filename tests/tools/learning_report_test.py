@@ -23,10 +23,10 @@ class LearningReport(unittest.TestCase):
         self.addCleanup(folder.cleanup)
         self.folder = Path(folder.name)
 
-    def report(self, rows, page=PAGE):
+    def report(self, rows, page=PAGE, options=()):
         (self.folder / "rows.json").write_text(json.dumps(rows))
         (self.folder / "page.md").write_text(page)
-        return subprocess.run([sys.executable, "-B", TOOL, self.folder / "rows.json", "--page", self.folder / "page.md"],
+        return subprocess.run([sys.executable, "-B", TOOL, self.folder / "rows.json", "--page", self.folder / "page.md", *options],
                               capture_output=True, text=True)
 
     def test_the_table_has_both_engines_and_how_many_times_as_long_the_other_takes(self):
@@ -38,8 +38,14 @@ class LearningReport(unittest.TestCase):
         self.assertNotIn("old", page)
         self.assertIn("| 2 x 64 |  | RoBOSS | 100 | 10000 | 3.2 | 1.30 |\n|  |  | MuJoCo | 250 (2.5 times) | 4000 |", page)
         self.assertIn("| 2 x 64 | colours | RoBOSS | 2000 | 500 |", page)
-        self.assertIn("| 2 x 64 |  | 10000 | 9091 | 4000 |  |", ran.stdout)  # rates by the clock are printed only
+        self.assertIn("| 2 x 64 |  | 10000 | 9091 | 0.91 | 4000 |  |  |", ran.stdout)  # rates by the clock are printed only
         self.assertNotIn("9091", page)
+
+    def test_the_page_gets_rates_by_the_clock_on_request(self):
+        rows = [row("RoBOSS", 100.0), row("RoBOSS", 55.0, threads=2), row("MuJoCo", 250.0), row("MuJoCo", 125.0, threads=2)]
+        ran = self.report(rows, options=["--clock"])
+        self.assertEqual(ran.returncode, 0, ran.stderr)
+        self.assertIn("| 2 x 64 |  | 10000 | 18182 | 1.82 | 4000 | 8000 | 2.00 |", (self.folder / "page.md").read_text())
 
     def test_a_page_without_the_marks_is_refused_and_stays(self):
         ran = self.report([row("RoBOSS", 100.0)], page="no marks\n")

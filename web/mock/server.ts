@@ -9,7 +9,7 @@ import { actingExtras } from "./acting";
 import { MockRun } from "./run";
 import { NO_TROUBLE, refusalText, troubleOf } from "./trouble";
 import { FLAG_PREVIEW } from "../src/protocol";
-import { encodeRobots, encodeState, groupsOf, overlayReport, robotReport } from "./reports";
+import { encodeRobots, encodeState, groupsOf, overlayReport, profileReport, robotReport } from "./reports";
 
 const { values: options } = parseArgs({
     options: {
@@ -177,7 +177,8 @@ class Page {
             if (run.scene.robots[robot] !== undefined) this.tell(robotReport(run.traffic, run.scene, robot));
         if (this.watch.overlays.includes("groups"))
             this.tell({ type: "groups", scene: run.scene.scene, ...groupsOf(run.traffic, run.scene, run.alive()) });
-        if (this.watch.overlays.some((name) => name !== "groups"))
+        if (this.watch.overlays.includes("profile")) this.tell(profileReport(run.traffic));
+        if (this.watch.overlays.some((name) => name !== "groups" && name !== "profile"))
             this.tell(overlayReport(run.traffic, run.scene, this.watch.overlays));
     }
 }

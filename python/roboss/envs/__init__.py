@@ -42,11 +42,12 @@ from .task import Outcome, Task
 from .vector import TaskVectorEnv
 from .warehouse import WarehouseEnv, WarehouseTask, WarehouseVectorEnv
 from .warehouse_driver import fetch_and_carry
+from .warehouse_traffic import CarrierTraffic
 
-__all__ = ["CityEnv", "CityParallelEnv", "CityTask", "CityVectorEnv", "Outcome", "SoccerEnv", "SoccerParallelEnv",
-           "SoccerTask", "SoccerVectorEnv", "Task", "TaskEnv", "TaskParallelEnv", "TaskVectorEnv", "WarehouseEnv",
-           "WarehouseParallelEnv", "WarehouseTask", "WarehouseVectorEnv", "chase_the_ball", "fetch_and_carry",
-           "follow_the_gap"]
+__all__ = ["CarrierTraffic", "CityEnv", "CityParallelEnv", "CityTask", "CityVectorEnv", "Outcome", "SoccerEnv",
+           "SoccerParallelEnv", "SoccerTask", "SoccerVectorEnv", "Task", "TaskEnv", "TaskParallelEnv",
+           "TaskVectorEnv", "WarehouseEnv", "WarehouseParallelEnv", "WarehouseTask", "WarehouseVectorEnv",
+           "chase_the_ball", "fetch_and_carry", "follow_the_gap"]
 
 for _name in ("City", "Soccer", "Warehouse"):
     gymnasium.register(f"roboss/{_name}-v0", entry_point=f"roboss.envs:{_name}Env",

@@ -15,7 +15,7 @@ def fetch_and_carry(observations: NDArray) -> NDArray[np.float64]:
 
     A carrier turns towards the free direction that is nearest to its way, drives as fast as the free way ahead allows,
     stops at its goal, and backs a little where it is blocked. It is a measure to compare with, and not a good one: where
-    many meet it jams, and it collides, because the laser does not see behind.
+    many meet it jams, and it collides, because the laser does not see behind. CarrierTraffic does not.
     """
     seen = np.asarray(observations, dtype=np.float64)
     ranges, wish = seen[:, :BEAMS] * RANGE_M, np.arctan2(seen[:, 24], seen[:, 23])

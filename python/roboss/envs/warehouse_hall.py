@@ -38,7 +38,7 @@ _CARRIER = """<model name="{name}"><pose>{x} {y} 0 0 0 0</pose>
 <max_linear_acceleration>1.5</max_linear_acceleration><min_linear_acceleration>-3</min_linear_acceleration>
 <max_angular_acceleration>6</max_angular_acceleration><min_angular_acceleration>-6</min_angular_acceleration></plugin></model>
 """
-_SLIDER = """<collision name="{name}"><pose>{x} 0 -0.12 0 0 0</pose><geometry><sphere><radius>0.05</radius></sphere></geometry>
+_SLIDER = """<collision name="{name}"><pose>{x} 0 -0.118 0 0 0</pose><geometry><sphere><radius>0.05</radius></sphere></geometry>
 <surface><friction><ode><mu>0</mu><mu2>0</mu2></ode></friction></surface></collision>
 """
 _WHEEL = """<link name="{side}_tyre"><pose>0 {y} 0.1 0 0 0</pose>

@@ -110,6 +110,8 @@ void add_plain(CLI::App& command, ControlCommandOptions& o, const Ask& ask) {
     one("speed", "set the speed: simulated seconds per real second, max or world", "speed", true);
     one("window", "set the synchronization interval in ticks, or auto", "window", true);
     none("groups", "print the Simulator and the island of each robot, as JSON");
+    none("profile",
+         "print where the time of the steps went in the last second, as JSON; the first answer is empty");
     none("bounds", "print the bounding box that each robot swept in the last window (m), as JSON");
     add_save(command, o, ask);
     one("rewind", "return to this time (s) of the journal, or #BRANCH@TIME, and continue from there", "time",
@@ -272,6 +274,7 @@ std::string text_of(const ControlOutcome& outcome) {
     if (const auto* status = std::get_if<RunStatus>(&outcome)) return status_json(*status);
     if (const auto* groups = std::get_if<RobotGroups>(&outcome)) return groups_json(*groups);
     if (const auto* bounds = std::get_if<RobotBounds>(&outcome)) return bounds_json(*bounds);
+    if (const auto* profile = std::get_if<RunProfile>(&outcome)) return profile_json(*profile);
     if (const auto* timeline = std::get_if<RunTimeline>(&outcome)) return timeline_json(*timeline);
     if (const auto* preview = std::get_if<RunPreview>(&outcome)) return preview_json(*preview);
     return std::get<ControlDone>(outcome).text;

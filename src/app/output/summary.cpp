@@ -38,12 +38,12 @@ double ratio(double part, double all) {
 std::string solver_text(const SolverProfile& p, double ticks, double tolerance) {
     const auto islands = static_cast<double>(p.islands), iterations = static_cast<double>(p.iterations);
     return fmt::format(
-        "solver            largest contact island {} robots, of these {} at most solved together\n"
+        "solver            largest contact island {} robots ({} contacts), {} at most solved together\n"
         "iterations        {:.1f} a step; {:.2f} a contact island on average, {} at most\n"
         "balance           of momentum, worst relative residual {:.1e}\n"
         "friction          off by more than {:g} in {:.2f} % of {} solves, by {:.1e} at most\n",
-        p.largest_island, p.largest_part, ratio(iterations, ticks), ratio(iterations, islands),
-        p.iterations_most, p.residual, tolerance,
+        p.largest_island, p.most_contacts, p.largest_part, ratio(iterations, ticks),
+        ratio(iterations, islands), p.iterations_most, p.residual, tolerance,
         100 * ratio(static_cast<double>(p.friction_misses), static_cast<double>(p.friction_solves)),
         p.friction_solves, p.friction_error);
 }
@@ -51,6 +51,7 @@ std::string solver_text(const SolverProfile& p, double ticks, double tolerance) 
 nlohmann::ordered_json solver_json(const SolverProfile& p, double ticks) {
     const auto islands = static_cast<double>(p.islands), iterations = static_cast<double>(p.iterations);
     return {{"largest_island_robots", p.largest_island},
+            {"most_contacts", p.most_contacts},
             {"largest_part_robots", p.largest_part},
             {"iterations_per_tick_mean", ratio(iterations, ticks)},
             {"iterations_per_island_mean", ratio(iterations, islands)},

@@ -30,7 +30,7 @@ struct Summary {
                   migrations = 0;  // of Simulators; of runs of recovery; of robots
     std::uint64_t cuts = 0;        // windows of a straggler that others took over in part (work stealing)
     std::size_t simulators = 0;    // at the end
-    std::optional<StepProfile> profile;  // with --stage-times
+    std::optional<StepProfile> profile;  // with --profile-steps
     double friction_tolerance = 0;       // of the world's accuracy
     std::string journal;                 // the file that the run has written; empty: none
     std::uint64_t journal_bytes = 0;

@@ -32,11 +32,6 @@ void print(const Diagnostics& diagnostics, const std::string& world) {
         fmt::print(stderr, "{} notes about this world; `roboss check {}` prints them\n", notes, world);
 }
 
-std::uint64_t now_ns() {
-    const auto now = std::chrono::steady_clock::now().time_since_epoch();
-    return static_cast<std::uint64_t>(std::chrono::duration_cast<std::chrono::nanoseconds>(now).count());
-}
-
 /// Ids of an earlier, killed Controller of this run may still be in use by its Simulators.
 std::uint32_t first_simulator_id() {
     constexpr int kSeatBits = 12;
@@ -157,6 +152,7 @@ bool Run::create() {
     auto simulation = Simulation::create(model_, options, std::move(programs), from, members_->take_bus());
     if (!simulation) return print(simulation.error()), false;
     simulation_ = std::move(simulation.value());
+    measure();
     start_ = journal_->start();
     return true;
 }
@@ -203,7 +199,6 @@ SimulationOptions Run::simulation_options(const SavedRun* from) {
     options.simulators = static_cast<std::size_t>(o_.simulators);
     options.threads = static_cast<unsigned>(threads_of_each(o_.threads, 1));
     options.lanes = o_.lanes;
-    if (o_.stage_times) options.meter = {now_ns, [this](const StepProfile& more) { profile_ += more; }};
     options.world_file = o_.world;
     options.controller.seed = o_.seed.value_or(from != nullptr ? from->seed : 0);
     options.controller.window = o_.window == "auto" ? 0 : static_cast<Tick>(std::stod(o_.window));
@@ -228,11 +223,13 @@ Result<> Run::restart(std::shared_ptr<const Model> model, const SavedRun& from, 
     options.controller.before.went_back = options.controller.before.went_back || back;
     options.clients_awaited = simulation_->clients_elsewhere();
     const bool reaches_others = members_->reaches_others();
+    take_profile();
     simulation_->start_log(nullptr, 0);
     auto made = Simulation::create(model, options, std::move(programs), &from,
                                    reaches_others ? simulation_->release_bus() : nullptr);
     if (!made) return made.error();
     simulation_ = std::move(made).value();
+    measure();
     model_ = std::move(model);
     return Ok{};
 }
@@ -318,7 +315,7 @@ Summary Run::summary(double wall_s) const {
     s.migrations = c.migrations;
     s.cuts = c.cuts;
     s.simulators = c.simulators;
-    if (o_.stage_times) s.profile = profile_;
+    if (o_.profile_steps) s.profile = profile_;
     s.friction_tolerance = model_->accuracy.friction_tolerance;
     if (journal_->writes()) s.journal = journal_->file(), s.journal_bytes = journal_->bytes();
     return s;
@@ -334,6 +331,7 @@ int Run::finish(bool fine, double wall_s) {
     if (contacts_) check(contacts_->close());
     if (!o_.save.empty() && !abandoned_) check(simulation_->save(o_.save));
     check(journal_->close());
+    take_profile();
     const Summary s = summary(wall_s);  // the journal has its last size
     if (!o_.json.empty()) check(write_json(s, o_.json));
     if (!o_.paths_picture.empty()) {

@@ -16,6 +16,7 @@
 #include "app/output/summary.h"
 #include "app/output/trace_file.h"
 #include "app/run/journal_preview.h"
+#include "app/run/profile_meter.h"
 #include "app/run/removed_robots.h"
 #include "app/run/run_journal.h"
 #include "app/run/run_members.h"
@@ -115,6 +116,10 @@ class Run {
     RunStatus status(bool with_robots) const;
     RobotGroups groups() const;
     RobotBounds bounds() const;
+    RunProfile profile();
+    /// Steps are measured for the summary, or while somebody asks.
+    void measure();
+    void take_profile();
 
     bool advance_to(Tick target);
     void report_notices();
@@ -168,7 +173,8 @@ class Run {
     Clock::time_point last_page_;  // when it was last seen by a page since then
     Clock::duration rested_{};     // wall time in which the run was paused
     TrafficMeter traffic_;
-    StepProfile profile_;  // of the steps in this process, if it is measured
+    StepProfile profile_;  // of all steps that were measured
+    ProfileMeter meter_;   // of the last second, for who asks
     /// A request and who waits for its outcome.
     struct Request {
         ControlAction action;

@@ -64,6 +64,8 @@ void Run::answer_previews() {
 void Run::serve_requests() {
     if (const std::int64_t now = simulation_->bus().now_ms(); traffic_.due(now))
         traffic_.take(simulation_->bus().flows(), now);
+    take_profile();
+    measure();
     take_requests();
     for (const Request& request : std::exchange(requests_, {})) {
         const ControlAction& action = request.action;
@@ -89,6 +91,8 @@ ControlOutcome Run::execute(const ControlAction& action) {
                 return groups();
             } else if constexpr (std::is_same_v<A, GetBounds>) {
                 return bounds();
+            } else if constexpr (std::is_same_v<A, GetProfile>) {
+                return profile();
             } else if constexpr (std::is_same_v<A, GetTimeline>) {
                 return journal_->timeline(model_->dt_s);
             } else if constexpr (std::is_same_v<A, PreviewRun>) {

@@ -151,9 +151,9 @@ void add_watch_options(CLI::App& command, RunOptions& o, ViewerDefault viewer) {
         "--json", o.json,
         "write the summary as JSON to this file (-: standard output; the text then goes to standard "
         "error)");
-    command.add_flag("--stage-times", o.stage_times,
+    command.add_flag("--profile-steps,--stage-times", o.profile_steps,
                      "measure how long each stage of the steps takes and what the solver does; the summary "
-                     "tells both (of the Simulators in this process; docs/performance.md)");
+                     "tells both (docs/performance.md)");
     command
         .add_option(
             "--log", o.log,
@@ -226,7 +226,7 @@ void add_common_options(CLI::App& command, RunOptions& o) {
     command.add_option(
         "--profile", o.profile,
         "name of the world's <physics> to use (default: the one with default=\"true\", else the "
-        "first)");
+        "first); where the time of the steps goes: --profile-steps");
     add_accuracy_options(command, o.accuracy);
     command
         .add_option_function<std::string>(
@@ -279,8 +279,7 @@ void add_run_options(CLI::App& command, RunOptions& o) {
             "number of Simulators, each as a separate process on this computer; if one fails, the end of "
             "its output is printed")
         ->check(whole_number(1, 100))
-        ->excludes(simulators)
-        ->excludes("--stage-times");
+        ->excludes(simulators);
 }
 
 void add_replay_options(CLI::App& command, RunOptions& o) {

@@ -48,7 +48,7 @@ struct RunOptions {
     std::string contacts;  // CSV
     double contacts_every_s = 0;
     double hash_every_s = 0;
-    bool stage_times = false;
+    bool profile_steps = false;
     std::string json;
     std::string log;  // a file, or - for standard error
     double log_every_s = 10;

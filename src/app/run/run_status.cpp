@@ -54,6 +54,23 @@ RobotGroups Run::groups() const {
     return groups;
 }
 
+RunProfile Run::profile() {
+    const RunProfile profile =
+        meter_.asked(simulation_->bus().now_ms(), simulation_->tick(), model_->accuracy.friction_tolerance);
+    measure();
+    return profile;
+}
+
+void Run::measure() {
+    simulation_->measure(o_.profile_steps || meter_.wanted(simulation_->bus().now_ms()));
+}
+
+void Run::take_profile() {
+    const StepProfile more = simulation_->take_profile();
+    profile_ += more;
+    meter_.add(more);
+}
+
 RobotBounds Run::bounds() const {
     RobotBounds bounds{model_->hash, {}};
     for (const RobotMotion& motion : simulation_->motions()) bounds.boxes.push_back(motion.swept);

@@ -121,8 +121,7 @@ Action parse_pull(const json& o, const Model& model, const RobotType& type, cons
     return pull;
 }
 
-Action parse_joint(const json& o, const RobotType& type, const std::string& robot) {
-    only_keys(o, "joint", {"name", "axis", "velocity", "position", "effort", "max_effort"});
+JointId named_joint(const json& o, const RobotType& type, const std::string& robot) {
     const std::string name = text(o, "name");
     const auto joint = type.find_joint(name);
     if (!joint) {
@@ -131,8 +130,24 @@ Action parse_joint(const json& o, const RobotType& type, const std::string& robo
                                      : "its first joint is '" + type.joints.front().name + "'";
         throw LineFault("robot '" + robot + "' has no joint '" + name + "'", hint);
     }
+    return *joint;
+}
+
+/// A number, or a list with one for each axis.
+std::vector<double> axis_values(const json& o, const char* key) {
+    if (!o.contains(key)) return {};
+    return o[key].is_array() ? numbers(o, key, o[key].size()) : std::vector<double>{number(o, key)};
+}
+
+Action parse_joint_state(const json& o, const RobotType& type, const std::string& robot) {
+    only_keys(o, "joint_state", {"name", "position", "velocity"});
+    return SetJointState{named_joint(o, type, robot), axis_values(o, "position"), axis_values(o, "velocity")};
+}
+
+Action parse_joint(const json& o, const RobotType& type, const std::string& robot) {
+    only_keys(o, "joint", {"name", "axis", "velocity", "position", "effort", "max_effort"});
     SetJoint order;
-    order.joint = *joint;
+    order.joint = named_joint(o, type, robot);
     int modes = 0;
     for (const auto& [key, mode] :
          {std::pair{"velocity", MotorMode::kVelocity}, std::pair{"position", MotorMode::kPosition},
@@ -272,9 +287,9 @@ std::vector<Order> parse_publish(const json& o, const Model& model) {
 }
 
 Order parse_order(const json& o, const Model& model) {
-    only_keys(
-        o, "an order",
-        {"t", "robot", "set_pose", "set_velocity", "wrench", "joint", "command", "attach", "detach", "pull"});
+    only_keys(o, "an order",
+              {"t", "robot", "set_pose", "set_velocity", "wrench", "joint", "joint_state", "command",
+               "attach", "detach", "pull"});
     const Tick tick = tick_of(o, model);
     const std::string robot = text(o, "robot");
     const auto id = model.find_robot(robot);
@@ -283,11 +298,11 @@ Order parse_order(const json& o, const Model& model) {
     const RobotType& type = model.type_of(*id);
     const int actions = static_cast<int>(o.size()) - 2;
     if (actions != 1)
-        throw LineFault(
-            "the order has " + std::to_string(actions) + " actions",
-            "name one of set_pose, set_velocity, wrench, pull, joint, command, attach, detach, or "
-            "publish without a "
-            "robot");
+        throw LineFault("the order has " + std::to_string(actions) + " actions",
+                        "name one of set_pose, set_velocity, wrench, pull, joint, joint_state, command, "
+                        "attach, detach, or "
+                        "publish without a "
+                        "robot");
     Order order;
     order.apply_at = tick;
     order.robot = *id;
@@ -296,6 +311,7 @@ Order parse_order(const json& o, const Model& model) {
     if (o.contains("wrench")) order.action = parse_wrench(o["wrench"], model, type, robot);
     if (o.contains("pull")) order.action = parse_pull(o["pull"], model, type, robot);
     if (o.contains("joint")) order.action = parse_joint(o["joint"], type, robot);
+    if (o.contains("joint_state")) order.action = parse_joint_state(o["joint_state"], type, robot);
     if (o.contains("command")) order.action = parse_command(o["command"], type, robot);
     if (o.contains("attach")) order.action = parse_attach(o["attach"], model, type, robot);
     if (o.contains("detach")) order.action = parse_detach(o["detach"], model);
@@ -356,6 +372,12 @@ struct ActionToJson {
         joint[kModes[static_cast<std::size_t>(a.mode)]] = passive ? 0.0 : a.target;
         if (a.max_effort >= 0 && std::isfinite(a.max_effort)) joint["max_effort"] = a.max_effort;
         line["joint"] = joint;
+    }
+    void operator()(const SetJointState& a) const {
+        nlohmann::ordered_json state{{"name", type.joints[a.joint.index()].name}};
+        if (!a.position.empty()) state["position"] = a.position;
+        if (!a.velocity.empty()) state["velocity"] = a.velocity;
+        line["joint_state"] = state;
     }
     void operator()(const Command& a) const {
         line["command"] = {{"name", type.channels[a.channel].channel.name}, {"values", a.values}};

@@ -100,6 +100,38 @@ std::shared_ptr<const Model> board_model() {
     return compile(world, {}, diagnostics);
 }
 
+TEST(OrdersFile, StatesOfJointsAreReadAndWrittenAlike) {
+    const auto model = cart_model();
+    Diagnostics d;
+    const auto orders = parse_orders(
+        R"({"t":0.5,"robot":"cart","joint_state":{"name":"slide","position":0.25}})"
+        "\n"
+        R"({"t":1,"robot":"cart","joint_state":{"name":"slide","position":[0.5],"velocity":[-1]}})"
+        "\n",
+        "f.jsonl", *model, d);
+    ASSERT_TRUE(d.items().empty());
+    ASSERT_EQ(orders.size(), 2u);
+    EXPECT_EQ(orders[0].action, Action(SetJointState{JointId(0u), {0.25}, {}}));
+    EXPECT_EQ(orders[1].action, Action(SetJointState{JointId(0u), {0.5}, {-1}}));
+    for (const Order& order : orders) {
+        const auto again = parse_orders(order_line(order, *model), "g.jsonl", *model, d);
+        ASSERT_EQ(again.size(), 1u);
+        EXPECT_EQ(again[0].action, order.action);
+    }
+}
+
+TEST(OrdersFile, StatesOfJointsThatCannotBeSetAreNamedWithTheirLine) {
+    for (const char* line : {R"({"t":1,"robot":"cart","joint_state":{"name":"glide","position":1}})",
+                             R"({"t":1,"robot":"cart","joint_state":{"name":"slide","position":[1,2]}})",
+                             R"({"t":1,"robot":"cart","joint_state":{"name":"slide"}})",
+                             R"({"t":1,"robot":"cart","joint_state":{"name":"slide","effort":1}})"}) {
+        Diagnostics d;
+        EXPECT_TRUE(parse_orders(line, "f.jsonl", *cart_model(), d).empty()) << line;
+        ASSERT_EQ(d.items().size(), 1u) << line;
+        EXPECT_EQ(d.items()[0].where.line, 1);
+    }
+}
+
 TEST(OrdersFile, AMessageCommandsAllThatTakeItsTopic) {
     Diagnostics d;
     const auto orders = parse_orders(R"({"t":1,"publish":{"topic":"/cmd_vel","linear_x":2}})"

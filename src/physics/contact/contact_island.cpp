@@ -414,9 +414,12 @@ void ContactIsland::solve_displacements() {
     mark_pushed(robots_, s_);
     stop_late_hits(model_, robots_, s_, members_, needs_displacement_, report_);
     mark_touched(robots_, s_);
-    if (s_.group.profiles_solver)
-        report_.profile.solver.add_island(members_.size(), static_cast<std::size_t>(largest_part_),
-                                          report_.iterations - iterations_before_);
+    if (!s_.group.profiles_solver) return;
+    SolverProfile& profile = report_.profile.solver;
+    profile.add_island(members_.size(), static_cast<std::size_t>(largest_part_),
+                       report_.iterations - iterations_before_);
+    if (members_.size() > 1)
+        profile.most_contacts = std::max<std::uint64_t>(profile.most_contacts, s_.rows.contacts.size());
 }
 
 void ContactIsland::integrate() {

@@ -116,6 +116,10 @@ class Controller {
     ControllerOptions::Before hand_over();
     /// Requests to the run: pause, rewind ...
     ControlService& control() { return control_; }
+    /// Whether Simulators measure their steps from the next window on. Costs them some per cent.
+    void measure(bool wanted) { measures_ = wanted; }
+    /// Of all windows measured since the last call, summed over Simulators.
+    StepProfile take_profile() { return std::exchange(profile_, {}); }
     /// Length of the next windows; 0: adaptive.
     void set_window(Tick ticks) { planner_.set_length(ticks); }
     /// Makes the Simulator with the highest number leave. False: there is only one.
@@ -201,6 +205,8 @@ class Controller {
     std::optional<Round> round_;                       // in progress
     std::uint32_t epoch_ = 0;
     std::uint64_t window_ = 0;
+    bool measures_ = false;
+    StepProfile profile_;
     std::int64_t heartbeat_sent_ms_ = 0;
     std::vector<Envelope> inbox_;
 };

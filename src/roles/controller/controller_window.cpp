@@ -39,6 +39,7 @@ WindowLimits Controller::limits_of_window(Tick from, bool all_answered) const {
 
 void Controller::start_window() {
     round_ = planner_.plan(epoch_, ++window_, limits_of_window(tick(), false), directory_);
+    round_->measured = measures_;
     enter(Phase::kStepping);
     const std::span<const SeatId> holders = directory_.holders();
     for (std::size_t r = 0; r < holders.size(); ++r)
@@ -66,6 +67,7 @@ void Controller::take_result(SeatId seat_id, const WindowResult& result) {
     if (!answered) return;
     const Assignment& assignment = answered->assignment;
     add_costs(*answered, result);
+    if (result.profile) profile_ += *result.profile;
     if (result.left > 0) {  // a Cut ended the assignment early; the rest of it is divided
         const Tick at = assignment.until - static_cast<Tick>(result.left);
         share_out_rest(*round_, *answered, result.islands, at, roster_, order_log_);

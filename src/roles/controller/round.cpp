@@ -134,6 +134,7 @@ void Round::send(Bus& bus, const Roster& roster, std::int64_t resend_ms,
         if (sent.sent_ms) ++sent.times, complete(sent.assignment);
         sent.sent_ms = now;
         sent.assignment.simulator = roster.id_of(sent.seat_id);
+        sent.assignment.measured = measured;
         bus.send(kControllerAddress, roster.address_of(sent.seat_id), sent.assignment);
     }
 }

@@ -97,6 +97,7 @@ class Round {
     Islands islands;                    // of the whole window so far
     std::vector<IslandResult> outcome;  // by the island's root
     std::vector<EarlierBox> earlier;
+    bool measured = false;  // Simulators profile it
 
   private:
     struct Sent {

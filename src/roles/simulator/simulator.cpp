@@ -26,7 +26,7 @@ bool is_newer(const A& a, const B& b) {
 }
 
 SteppingOptions stepping(const SimulatorOptions& options) {
-    SteppingOptions stepping{nullptr, nullptr, options.lanes, options.look_up, options.meter};
+    SteppingOptions stepping{nullptr, nullptr, options.lanes, options.look_up, options.now};
     if (options.measure_cpu)
         stepping.clock = options.cpu_clock ? options.cpu_clock : thread_cpu_ns;
     else

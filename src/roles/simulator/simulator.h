@@ -11,6 +11,7 @@
 
 #include "bus/bus.h"
 #include "bus/state_pull.h"
+#include "core/monotonic.h"
 #include "roles/simulator/state_store.h"
 #include "roles/simulator/window_stepper.h"
 #include "wire/view_state.h"
@@ -27,7 +28,7 @@ struct SimulatorOptions {
     std::size_t look_up = 64;      // robots times ticks between two polls for messages, where few are stepped
     double cut_least_ns = 50'000;  // of an assignment's work: less is not worth reporting or giving away
     std::size_t lanes = kMostLanes;  // robots stepped at once (StepScratch::use_lanes)
-    StepMeter meter{};               // who profiles its steps
+    StageNow now = monotonic_ns;     // measures steps where the Controller asks for it; null: never
     std::string name;                // where it runs, for reports
 };
 

@@ -27,10 +27,7 @@ WindowStepper::WindowStepper(std::shared_ptr<const Model> model, ThreadPool& poo
       profiles_(pool.threads()),
       largest_groups_(pool.threads()),
       lane_groups_(pool.threads()) {
-    for (StepScratch& scratch : scratch_) {
-        scratch.use_lanes(options_.lanes);
-        scratch.measure_stages(options_.meter.now);
-    }
+    for (StepScratch& scratch : scratch_) scratch.use_lanes(options_.lanes);
 }
 
 WindowStepper::~WindowStepper() = default;
@@ -74,6 +71,7 @@ void WindowStepper::cut_batches(const Assignment& assignment) {
 
 WindowResult WindowStepper::step(const Assignment& assignment, StateStore& store, const Between& between) {
     const std::size_t n = assignment.robots.size();
+    if (assignment.measured != measured_) measure(assignment.measured);
     sort_orders(assignment);
     cut_batches(assignment);
     states_.resize(n);
@@ -94,7 +92,7 @@ WindowResult WindowStepper::step(const Assignment& assignment, StateStore& store
     pool_.run(
         batch_offsets_.size() - 1 - large,
         [&](std::size_t b, std::size_t worker) { step_batch(job, large + b, worker); }, [&] { between({}); });
-    report_profile();
+    report_profile(job.result);
     if (job.result.left > 0) return std::move(job.result);
     for (auto& boxes : earlier_) {
         job.result.earlier.insert(job.result.earlier.end(), boxes.begin(), boxes.end());
@@ -120,11 +118,15 @@ std::size_t WindowStepper::step_large_batches(Job& job) {
     return large;
 }
 
-void WindowStepper::report_profile() {
-    if (!options_.meter) return;
-    StepProfile all;
+void WindowStepper::measure(bool wanted) {
+    measured_ = wanted && options_.now != nullptr;
+    for (StepScratch& scratch : scratch_) scratch.measure_stages(measured_ ? options_.now : nullptr);
+}
+
+void WindowStepper::report_profile(WindowResult& result) {
+    if (!measured_) return;
+    StepProfile& all = result.profile.emplace();
     for (StepProfile& profile : profiles_) all += std::exchange(profile, {});
-    options_.meter.add(all);
 }
 
 void WindowStepper::step_batch(Job& job, std::size_t batch, std::size_t worker) {

@@ -32,7 +32,7 @@ struct SteppingOptions {
     std::function<void(double)> counted;  // called with counted work, in ns, as it is done; may be empty
     std::size_t lanes = kMostLanes;       // robots stepped at once, at most
     std::size_t look_up = 64;             // robots times ticks between two calls of `between` in lockstep
-    StepMeter meter{};
+    StageNow now = nullptr;               // measures assignments that are to be measured
 };
 
 class WindowStepper {
@@ -62,7 +62,8 @@ class WindowStepper {
         std::vector<EarlierBox> earlier;
     };
 
-    void report_profile();
+    void measure(bool wanted);
+    void report_profile(WindowResult& result);
     void sort_orders(const Assignment& assignment);
     void cut_batches(const Assignment& assignment);
     std::size_t step_large_batches(Job& job);
@@ -93,6 +94,7 @@ class WindowStepper {
     ThreadPool& pool_;
     SteppingOptions options_;
     std::vector<StepScratch> scratch_;         // one a thread
+    bool measured_ = false;                    // this assignment
     std::vector<StepProfile> profiles_;        // likewise, of this window
     std::vector<std::size_t> largest_groups_;  // likewise, of the last window: most robots that may meet
 

@@ -29,7 +29,14 @@ export class RunLink {
             message: (message) => this.onMessage(message),
         });
         this.preview = new Preview(state, this.connection, (text) => this.notice.set({ text, bad: true }));
-        for (const signal of [state.selected, state.overlays, state.colourBy, state.pinned, state.world])
+        for (const signal of [
+            state.selected,
+            state.overlays,
+            state.colourBy,
+            state.pinned,
+            state.world,
+            state.wantsProfile,
+        ])
             (signal as Signal<unknown>).follow(() => this.sendWatch());
     }
 
@@ -60,6 +67,7 @@ export class RunLink {
         this.state.link.set({ state: link, probe });
         if (link !== "gone") return;
         this.state.status.set(null);
+        this.state.profile.set(null);
         this.state.roles.set(null);
         this.state.timeline.set(null);
     }
@@ -92,6 +100,9 @@ export class RunLink {
                 break;
             case "overlay":
                 if (message.scene === this.sceneNumber()) this.state.overlayReport.set(message);
+                break;
+            case "profile":
+                this.state.profile.set(message);
                 break;
             case "extras":
                 if (message.scene === this.sceneNumber()) this.state.extras.set(message);
@@ -172,6 +183,7 @@ export class RunLink {
             colour = this.state.colourBy.value;
         for (const name of ["contacts", "bounds"] as const) if (on.has(name)) overlays.push(name);
         if (on.has("islands") || colour === "island" || colour === "simulator") overlays.push("groups");
+        if (this.state.wantsProfile.value) overlays.push("profile");
         const robots = new Set<number>(this.state.pinned.value);
         if (this.state.selected.value !== null) robots.add(this.state.selected.value);
         const watch = { robots: [...robots].slice(0, WATCHED_ROBOTS_MAX), overlays, rate: RATE_MAX };

@@ -1,6 +1,7 @@
 // What the page knows and what its person chose, as signals. Every panel and every layer of the picture follows these;
 // none knows another.
 import type { Groups, OverlayReport, RobotReport, Status } from "../wire/messages";
+import type { StepProfile } from "../wire/profile";
 import type { LinkState } from "../wire/connection";
 import type { Probe } from "../wire/probe";
 import type { LoadedScene } from "../wire/scene_source";
@@ -77,6 +78,10 @@ export class ViewerState {
     readonly roles = new Signal<Roles | null>(null);
     readonly world = new Signal<World | null>(null);
     readonly status = new Signal<Status | null>(null);
+    /** Where the time of the steps goes; null: not known. */
+    readonly profile = new Signal<StepProfile | null>(null);
+    /** It is looked at. */
+    readonly wantsProfile = new Signal(false);
     /** Branches and bookmarks of the journal; null: there is none. */
     readonly timeline = new Signal<Timeline | null>(null);
     /** An earlier moment that is drawn instead of the present. */

@@ -10,6 +10,7 @@ import type { MemberStatus, MessageRate, Status } from "../wire/messages";
 import { groupCss } from "../view/palette";
 import { plotAxes } from "./plot_chart";
 import { runButtons } from "./run_buttons";
+import { stepProfile } from "./step_profile";
 
 const KEPT = 240;
 const LOST_SHOWN_MS = 20_000;
@@ -119,6 +120,7 @@ export class ClusterPanel {
             ),
             h("div", { class: "panel-head sub" }, h("h3", {}, "Step time"), h("span", { class: "facts" }, "µs a tick")),
             this.plotHost,
+            stepProfile(state),
         );
         state.status.follow((status) => status !== null && this.show(status));
         state.theme.follow(() => this.dropPlot());

@@ -2,6 +2,7 @@
 // radians; a pose is [x, y, z, qw, qx, qy, qz].
 import type { BondReport, ChannelInfo, ChannelReport, Extras, FlowInfo, OnboardAction, SurfaceReport } from "./onboard";
 import type { LightInfo, LookInfo } from "./look";
+import type { StepProfile } from "./profile";
 import type { Roles } from "./roles";
 import type { PreviewInfo, Timeline } from "./timeline";
 import type { Visual } from "./visual";
@@ -254,6 +255,7 @@ export type Incoming =
     | Groups
     | RobotReport
     | OverlayReport
+    | StepProfile
     | Extras
     | Answer
     | Roles
