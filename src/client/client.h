@@ -125,6 +125,10 @@ class Client : private SensorSources {
     LaserReading laser(const RobotRef& robot, const SensorRef& sensor) {
         return reading<LaserReading>(robot, sensor);
     }
+    /// The image of a colour camera, reading<CameraReading>(). Cameras are measured whenever they are asked.
+    CameraReading camera(const RobotRef& robot, const SensorRef& sensor) {
+        return reading<CameraReading>(robot, sensor);
+    }
     /// reading<OdometerReading>().
     OdometerReading odometer(const RobotRef& robot, const SensorRef& sensor) {
         return reading<OdometerReading>(robot, sensor);
@@ -157,6 +161,7 @@ class Client : private SensorSources {
     Result<> restore_samples(const std::string& bytes);
 
   protected:
+    Result<const CameraScene*> camera_scene() override { return SensorSources::camera_scene(); }
     /// The robot; throws if there is none.
     const Robot& known(RobotId robot) const;
     /// Tick of the observation before this one; of the first one, where it would have been.

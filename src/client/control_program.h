@@ -38,7 +38,7 @@ class ControlProgram {
 };
 
 /// Version of this interface; the loader refuses a library built against another one.
-inline constexpr int kControlProgramAbi = 10;
+inline constexpr int kControlProgramAbi = 11;
 
 }  // namespace roboss
 

@@ -30,6 +30,21 @@ RayScene& RunAccess::ray_scene() {
     return *rays_;
 }
 
+void RunAccess::set_visuals(render::VisualsOf visuals, unsigned threads) {
+    visuals_ = std::move(visuals);
+    camera_threads_ = threads;
+    cameras_.reset();
+    cameras_are_new_ = false;
+}
+
+Result<const CameraScene*> RunAccess::camera_scene() {
+    if (!visuals_) return SensorSources::camera_scene();
+    if (!cameras_) cameras_ = std::make_unique<CameraScene>(model_, visuals_(*model_), camera_threads_);
+    if (!cameras_are_new_) cameras_->update(pointers());
+    cameras_are_new_ = true;
+    return cameras_.get();
+}
+
 StepProbe& RunAccess::step_probe() {
     if (!probe_) probe_ = std::make_unique<StepProbe>(*model_);
     if (!probe_is_new_) probe_->step(tick(), pointers());

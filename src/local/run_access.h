@@ -10,6 +10,7 @@
 #include "core/result.h"
 #include "model/order.h"
 #include "physics/probe.h"
+#include "render/camera_scene.h"
 #include "sensors/readings.h"
 
 namespace roboss {
@@ -62,6 +63,10 @@ class RunAccess : private SensorSources {
     /// All contact points of the tick that begins at tick(), as long as no order takes effect at it
     /// (physics/probe.h). Valid until the world is changed.
     std::span<const ContactReport> contacts() { return step_probe().contacts(); }
+    /// From now on cameras see these visuals, with so many threads; without it a camera cannot be read.
+    void set_visuals(render::VisualsOf visuals, unsigned threads);
+    /// What cameras see at tick(). Valid until the world is changed.
+    Result<const CameraScene*> camera_scene() override;
     /// What rays meet at tick(). Valid until the world is changed.
     const RayScene& shapes() { return ray_scene(); }
     /// Another number whenever the states are others than before.
@@ -71,7 +76,7 @@ class RunAccess : private SensorSources {
 
   protected:
     /// States are others than before.
-    void changed() { rays_are_new_ = probe_is_new_ = false, ++version_; }
+    void changed() { rays_are_new_ = probe_is_new_ = cameras_are_new_ = false, ++version_; }
 
   private:
     RayScene& ray_scene() override;
@@ -83,7 +88,10 @@ class RunAccess : private SensorSources {
     // made by the first question of a tick
     std::unique_ptr<RayScene> rays_;
     std::unique_ptr<StepProbe> probe_;
-    bool rays_are_new_ = false, probe_is_new_ = false;
+    std::unique_ptr<CameraScene> cameras_;
+    render::VisualsOf visuals_;
+    unsigned camera_threads_ = 1;
+    bool rays_are_new_ = false, probe_is_new_ = false, cameras_are_new_ = false;
     std::uint64_t version_ = 1;
 };
 

@@ -36,6 +36,7 @@ struct SimulationOptions {
     std::size_t lanes = kMostLanes;  // most robots of a type stepped at once
     StepMeter meter{};               // who profiles the steps in this process
     std::string world_file;          // for saved runs
+    render::VisualsOf visuals;       // what cameras of the programs see; none: they cannot be read
     /// Called in every round: advances a viewer, say. No result may depend on it.
     std::function<void(Bus&)> observer;
     ControllerOptions controller;  // its `simulators` and `clients` are set from here

@@ -142,6 +142,9 @@ struct VisualSpec {
     std::optional<Vec3> specular{},  ///< colour of highlights, 0..1 each; none: the viewer's own
         emissive{};                  ///< light that it gives off, 0..1 each; none: nothing
     bool cast_shadows = true;        ///< SDF `<cast_shadows>`
+    int label = 0;                   ///< 1..255, of Gazebo's Label plugin; 0: none
+    bool labels_model = false;       ///< the label is that of the model: its visuals are one thing
+    std::optional<double> temperature{};  ///< K, of Gazebo's Thermal plugin; none: that of the air
 };
 
 /// Resistance of the air (SDF `<enable_wind>`, `<roboss:drag>`).
