@@ -22,7 +22,8 @@ class City {
         Diagnostics diagnostics;
         LoadOptions options;
         options.looks = true;
-        std::optional<World> world = load_world(std::string(ROBOSS_WORLDS) + "/city.sdf", options, diagnostics);
+        std::optional<World> world =
+            load_world(std::string(ROBOSS_WORLDS) + "/city.sdf", options, diagnostics);
         if (!world) throw std::runtime_error("worlds/city.sdf cannot be read");
         model_ = compile(*world, {}, diagnostics);
         const auto kept = std::make_shared<const World>(*std::move(world));
@@ -49,21 +50,24 @@ class City {
 };
 
 void label(benchmark::State& state) {
-    state.counters["frames/s"] = benchmark::Counter(static_cast<double>(state.iterations()), benchmark::Counter::kIsRate);
-    state.SetLabel("world=city robots=50 image=" + std::to_string(state.range(0)) + "x" + std::to_string(state.range(1)) +
-                   " threads=" + std::to_string(state.range(2)));
+    state.counters["frames/s"] =
+        benchmark::Counter(static_cast<double>(state.iterations()), benchmark::Counter::kIsRate);
+    state.SetLabel("world=city robots=50 image=" + std::to_string(state.range(0)) + "x" +
+                   std::to_string(state.range(1)) + " threads=" + std::to_string(state.range(2)));
 }
 
 void camera_depth(benchmark::State& state) {
     const City city(static_cast<unsigned>(state.range(2)));
-    const render::CameraView view = city.view(static_cast<int>(state.range(0)), static_cast<int>(state.range(1)));
+    const render::CameraView view =
+        city.view(static_cast<int>(state.range(0)), static_cast<int>(state.range(1)));
     for ([[maybe_unused]] auto _ : state) benchmark::DoNotOptimize(sight(city.scene(), view, 0.05, 100));
     label(state);
 }
 
 void camera_colours(benchmark::State& state) {
     const City city(static_cast<unsigned>(state.range(2)));
-    const render::CameraView view = city.view(static_cast<int>(state.range(0)), static_cast<int>(state.range(1)));
+    const render::CameraView view =
+        city.view(static_cast<int>(state.range(0)), static_cast<int>(state.range(1)));
     for ([[maybe_unused]] auto _ : state) benchmark::DoNotOptimize(picture(city.scene(), view));
     label(state);
 }

@@ -20,7 +20,8 @@ namespace {
 /// One value of the readings of all robots, one robot behind the other.
 struct Column {
     std::string name, unit;
-    const char* type = "float";  // "float", "int", "bool", "vector", "quat" (x y z w), "list", "text", "image"
+    const char* type =
+        "float";  // "float", "int", "bool", "vector", "quat" (x y z w), "list", "text", "image"
     std::vector<double> numbers;
     std::vector<std::string> texts;
     std::vector<std::size_t> counts;  // numbers, texts or samples of each robot
@@ -83,7 +84,8 @@ Result<> read_all(RunAccess& run, const std::vector<std::uint32_t>& robots, std:
         if (!sample) return sample.error();
         std::size_t at = 0;
         visit_fields(sample.value(), [&](const ReadingField& field, const auto& value) {
-            if (at == columns.size()) columns.push_back({field.name, field.unit, "float", {}, {}, {}, {}, {}});
+            if (at == columns.size())
+                columns.push_back({field.name, field.unit, "float", {}, {}, {}, {}, {}});
             add(columns[at++], value);
         });
     }
@@ -97,9 +99,8 @@ void append(std::vector<Column>& columns, const std::vector<Column>& more) {
         add_all(columns[c].numbers, more[c].numbers);
         add_all(columns[c].texts, more[c].texts);
         add_all(columns[c].counts, more[c].counts);
-        std::visit(
-            [&]<class Samples>(Samples& to) { add_all(to, std::get<Samples>(more[c].samples)); },
-            columns[c].samples);
+        std::visit([&]<class Samples>(Samples& to) { add_all(to, std::get<Samples>(more[c].samples)); },
+                   columns[c].samples);
     }
 }
 

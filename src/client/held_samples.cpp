@@ -60,9 +60,10 @@ void write_sample(Writer& a, const Sample& sample) {
 Sample read_sample(Reader& a, std::uint32_t kind) {
     Sample sample;
     const bool known = make_sample(kind, sample);
-    const bool held = known && std::visit([]<class Reading>(const Reading&) {
-                          return !kind_of_reading<Reading>().is_image;
-                      }, sample);
+    const bool held =
+        known &&
+        std::visit([]<class Reading>(const Reading&) { return !kind_of_reading<Reading>().is_image; },
+                   sample);
     if (!held) {
         a.fail("a sample is of no kind that is held");
         return sample;

@@ -214,7 +214,8 @@ bool Inspector::is_due(RobotId robot, std::size_t sensor) const {
 
 const Sample* Inspector::sample(RobotId robot, std::size_t sensor) {
     const HeldSamples::Key key(robot.value, static_cast<std::uint32_t>(sensor));
-    if (scene_->model->type_of(robot).sensors[sensor].spec.kind().is_image) return nullptr;  // no page shows it
+    if (scene_->model->type_of(robot).sensors[sensor].spec.kind().is_image)
+        return nullptr;  // no page shows it
     if (is_due(robot, sensor)) {
         Result<Sample> measured = measure(
             {*scene_->model, robot, sensor, *states_[robot.index()], tick_, scene_->file.seed, *this});

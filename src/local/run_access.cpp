@@ -1,7 +1,13 @@
 // See run_access.h.
 #include "local/run_access.h"
 
+#include "render/camera_scene.h"
+
 namespace roboss {
+
+RunAccess::RunAccess(std::shared_ptr<const Model> model) : model_(std::move(model)) {}
+
+RunAccess::~RunAccess() = default;
 
 std::uint64_t RunAccess::hash() const {
     std::vector<std::uint64_t> hashes;

@@ -10,7 +10,7 @@
 #include "core/result.h"
 #include "model/order.h"
 #include "physics/probe.h"
-#include "render/camera_scene.h"
+#include "render/visuals_of.h"
 #include "sensors/readings.h"
 
 namespace roboss {
@@ -19,7 +19,8 @@ namespace roboss {
 class RunAccess : private SensorSources {
   public:
     /// Of this world.
-    explicit RunAccess(std::shared_ptr<const Model> model) : model_(std::move(model)) {}
+    explicit RunAccess(std::shared_ptr<const Model> model);
+    ~RunAccess() override;
 
     const Model& model() const { return *model_; }                               ///< the compiled world
     const std::shared_ptr<const Model>& shared_model() const { return model_; }  ///< the same

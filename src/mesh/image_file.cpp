@@ -9,6 +9,8 @@
 #include <fstream>
 #include <optional>
 
+#include "mesh/jpeg_image.h"
+
 namespace roboss {
 namespace {
 
@@ -61,7 +63,8 @@ Result<ColourImage> read_png_colours(const std::string& path) {
 
 namespace {
 
-Result<> write_samples(const std::string& path, int columns, int rows, png_uint_32 format, const void* samples) {
+Result<> write_samples(const std::string& path, int columns, int rows, png_uint_32 format,
+                       const void* samples) {
     png_image image;
     std::memset(&image, 0, sizeof image);
     image.version = PNG_IMAGE_VERSION;
@@ -78,14 +81,17 @@ Result<> write_samples(const std::string& path, int columns, int rows, png_uint_
 
 Result<> write_png(const std::string& path, int columns, int rows, int channels,
                    const std::vector<std::uint8_t>& samples) {
-    return write_samples(path, columns, rows, channels == 3 ? PNG_FORMAT_RGB : PNG_FORMAT_GRAY, samples.data());
+    return write_samples(path, columns, rows, channels == 3 ? PNG_FORMAT_RGB : PNG_FORMAT_GRAY,
+                         samples.data());
 }
 
-Result<> write_png16(const std::string& path, int columns, int rows, const std::vector<std::uint16_t>& samples) {
+Result<> write_png16(const std::string& path, int columns, int rows,
+                     const std::vector<std::uint16_t>& samples) {
     return write_samples(path, columns, rows, PNG_FORMAT_LINEAR_Y, samples.data());
 }
 
 Result<ColourImage> decode_picture(const PictureSpec& picture) {
+    if (picture.kind == PictureKind::kJpeg) return decode_jpeg(picture.bytes);
     if (picture.kind != PictureKind::kPng)
         return Error{"is of a kind that cameras do not show", "Save it as PNG.", "picture-kind"};
     png_image image;

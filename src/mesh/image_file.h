@@ -32,7 +32,8 @@ Result<ColourImage> read_png_colours(const std::string& path);
 Result<> write_png(const std::string& path, int columns, int rows, int channels,
                    const std::vector<std::uint8_t>& samples);
 /// Writes 16 bits of grey, as they are.
-Result<> write_png16(const std::string& path, int columns, int rows, const std::vector<std::uint16_t>& samples);
+Result<> write_png16(const std::string& path, int columns, int rows,
+                     const std::vector<std::uint16_t>& samples);
 
 /// The colours of a picture of a visual. Errors: it is cut off or damaged, or of a kind that is not decoded
 /// (WebP).

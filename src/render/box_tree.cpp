@@ -56,7 +56,9 @@ struct Builder {
         Aabb middle;
         for (std::size_t i = range.first; i < range.last; ++i) middle.include(centres[tree.order[i]]);
         const Vec3 extent = middle.max - middle.min;
-        const std::size_t axis = extent.x >= extent.y && extent.x >= extent.z ? 0 : extent.y >= extent.z ? 1 : 2;
+        const std::size_t axis = extent.x >= extent.y && extent.x >= extent.z ? 0
+                                 : extent.y >= extent.z                       ? 1
+                                                                              : 2;
         const auto begin = tree.order.begin() + static_cast<std::ptrdiff_t>(range.first);
         const auto end = tree.order.begin() + static_cast<std::ptrdiff_t>(range.last);
         if (extent[axis] > 0 && range.depth < kHalvedFrom) {

@@ -136,8 +136,9 @@ void CameraScene::update(std::span<const RobotState* const> states) {
             const Link& link = type.links[l];
             const Transform& X = link.body < 0 ? X_WBase : X_WB[static_cast<std::size_t>(link.body)];
             links_W_[r][l] = X * link.X_BL;
-            const Items items = items_of(RobotId(r), LinkId(l));
-            for (std::uint32_t i = items.first; i < items.last; ++i) place(i, links_W_[r][l]);
+            // of a static model the visuals are scenery, and the range is empty
+            for (std::uint32_t i = link_starts_[r][l]; i < link_starts_[r][l + 1]; ++i)
+                place(i, links_W_[r][l]);
         }
     }
     if (moved) grow_moving_tree();

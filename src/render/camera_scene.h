@@ -74,9 +74,9 @@ class CameraScene {
     std::shared_ptr<const Model> model_;
     std::shared_ptr<const render::VisualWorld> world_;
     mutable ThreadPool pool_;
-    std::vector<render::TraceItem> items_;              // scenery, then robots by link
-    std::vector<const render::VisualShape*> shapes_;    // by item
-    std::vector<std::uint32_t> thing_of_;               // by item
+    std::vector<render::TraceItem> items_;                 // scenery, then robots by link
+    std::vector<const render::VisualShape*> shapes_;       // by item
+    std::vector<std::uint32_t> thing_of_;                  // by item
     std::vector<std::vector<std::uint32_t>> link_starts_;  // by robot and link, and where the last one ends
     std::vector<Thing> things_;
     std::vector<std::vector<double>> q_;  // by robot, as placed last; empty: not yet

@@ -11,7 +11,7 @@ namespace roboss::render {
 namespace {
 
 Inside<double> cross_item(const TraceItem& item, const Vec3& o, const Vec3& d) {
-    const double *s = item.size;
+    const double* s = item.size;
     switch (item.kind) {
         case TraceKind::kPlane:
             return cross_rectangle(o, d, s[0], s[1]);
@@ -54,7 +54,10 @@ void on_box(const TraceItem& item, const Vec3& p, ExactHit& hit) {
     hit.n_S = {};
     hit.n_S[axis] = p[axis] < 0 ? -1 : 1;
     const std::size_t a = axis == 0 ? 1 : 0, b = axis == 2 ? 1 : 2;
-    hit.u = 0.5 + 0.5 * p[a] / std::max(item.size[a], 1e-12) * (axis == 1 ? -hit.n_S[axis] : axis == 0 ? hit.n_S[axis] : 1);
+    hit.u = 0.5 + 0.5 * p[a] / std::max(item.size[a], 1e-12) *
+                      (axis == 1   ? -hit.n_S[axis]
+                       : axis == 0 ? hit.n_S[axis]
+                                   : 1);
     hit.v = 0.5 + 0.5 * p[b] / std::max(item.size[b], 1e-12);
     hit.uv_density = 0.5 / std::max(std::min(item.size[a], item.size[b]), 1e-6);
 }

@@ -7,10 +7,10 @@
 namespace roboss::render {
 
 struct ExactHit {
-    double t = 0;       // in lengths of the direction
-    Vec3 n_S, flat_S;   // unit, in the shape's frame: to be lit, and of the surface itself
-    double u = 0, v = 0;      // on the picture
-    double uv_density = 0;    // pictures by metre
+    double t = 0;           // in lengths of the direction
+    Vec3 n_S, flat_S;       // unit, in the shape's frame: to be lit, and of the surface itself
+    double u = 0, v = 0;    // on the picture
+    double uv_density = 0;  // pictures by metre
 };
 
 /// The ray o + t d in the frame of the shape. `hollow`: only its outside is seen.

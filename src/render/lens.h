@@ -13,8 +13,8 @@ class Lens {
   public:
     explicit Lens(const CameraOptics& optics);
 
-    /// Direction in the camera's frame (x ahead, y left, z up) of the ray at (u, v) of the image; of a pinhole
-    /// camera with x = 1, else a unit vector. None: the image shows nothing there.
+    /// Direction in the camera's frame (x ahead, y left, z up) of the ray at (u, v) of the image; of a
+    /// pinhole camera with x = 1, else a unit vector. None: the image shows nothing there.
     std::optional<Vec3> direction(double u, double v) const;
     /// Where a point of the camera's frame is seen; none: not at all. Of pinhole cameras, with distortion.
     std::optional<std::pair<double, double>> project(const Vec3& p_C) const;

@@ -23,7 +23,8 @@ Scene mixed_scene(std::uint64_t seed) {
     for (int i = 0; i < 24; ++i) {
         const auto kind = static_cast<SceneShapeKind>(i % 8);
         SceneShape one = shape(kind, Vec3{9, 0, 2} + dice.point(4));
-        one.frame.q = normalized(Quat{dice.roll(-1, 1), dice.roll(-1, 1), dice.roll(-1, 1), dice.roll(-1, 1)});
+        one.frame.q =
+            normalized(Quat{dice.roll(-1, 1), dice.roll(-1, 1), dice.roll(-1, 1), dice.roll(-1, 1)});
         one.size = {dice.roll(0.3, 2), dice.roll(0.3, 2), dice.roll(0.3, 2)};
         one.radius = dice.roll(0.2, 0.9), one.length = dice.roll(0.3, 2);
         one.rgb = {dice.roll(0, 1), dice.roll(0, 1), dice.roll(0, 1)};
@@ -73,7 +74,8 @@ TEST(Render, DepthOfAPlaneAndABoxIsThatOfTheClosedForm) {
             const double on_ground = d.z < 0 ? -1.5 / d.z : 1e9;
             const bool front = std::fabs(7 * d.y) < 1 && std::fabs(0.5 + 7 * d.z) < 1;
             const double expected = front ? 7 : on_ground;
-            const bool rim = std::fabs(std::fabs(7 * d.y) - 1) < 1e-6 || std::fabs(std::fabs(0.5 + 7 * d.z) - 1) < 1e-6;
+            const bool rim =
+                std::fabs(std::fabs(7 * d.y) - 1) < 1e-6 || std::fabs(std::fabs(0.5 + 7 * d.z) - 1) < 1e-6;
             const Sighting& one = seen[static_cast<std::size_t>(64 * v + u)];
             if (rim || expected > 99) continue;
             EXPECT_NEAR(one.depth, expected, 1e-11) << u << ' ' << v;

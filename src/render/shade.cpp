@@ -46,7 +46,7 @@ double strength(const CameraScene::Light& light, const Vec3& to_light, double d)
 Shader::Shader(const CameraScene& scene, const CameraView& view, const Lens& lens)
     : scene_(scene), view_(view), lens_(lens), tracer_(best_tracer()) {
     const SceneSpec& spec = scene.world().scene;
-    ambient_ = squared(spec.ambient.value_or(Vec3{0.45, 0.45, 0.45}));
+    ambient_ = squared(spec.ambient.value_or(Vec3{0.55, 0.55, 0.55}));
     background_ = squared(spec.background.value_or(Vec3{0.7, 0.7, 0.7}));
     has_sky_ = spec.sky || !scene.world().has_scene;
     shadows_ = spec.shadows;
@@ -189,8 +189,9 @@ Image<std::uint8_t> picture(const CameraScene& scene, const CameraView& view) {
     };
     static constexpr Place kOne[] = {{0.5, 0.5}}, kTwo[] = {{0.25, 0.25}, {0.75, 0.75}};
     static constexpr Place kFour[] = {{0.375, 0.125}, {0.875, 0.375}, {0.125, 0.625}, {0.625, 0.875}};
-    static constexpr Place kEight[] = {{0.5625, 0.3125}, {0.4375, 0.6875}, {0.8125, 0.5625}, {0.3125, 0.1875},
-                                       {0.1875, 0.8125}, {0.0625, 0.4375}, {0.6875, 0.9375}, {0.9375, 0.0625}};
+    static constexpr Place kEight[] = {{0.5625, 0.3125}, {0.4375, 0.6875}, {0.8125, 0.5625},
+                                       {0.3125, 0.1875}, {0.1875, 0.8125}, {0.0625, 0.4375},
+                                       {0.6875, 0.9375}, {0.9375, 0.0625}};
     const CameraOptics& optics = view.optics;
     const int wanted = optics.anti_aliasing;
     const std::span<const Place> places = wanted >= 8   ? std::span<const Place>(kEight)

@@ -35,8 +35,11 @@ inline SceneShape ground(double size) {
 struct Room {
     explicit Room(Scene scene, unsigned threads = 1)
         : model(std::make_shared<const Model>()),
-          world(std::make_shared<const render::VisualWorld>(
-              scene, *model, [](const PictureSpec&) -> Result<render::Picture> { return Error{"none", ""}; })),
+          world(
+              std::make_shared<const render::VisualWorld>(scene, *model,
+                                                          [](const PictureSpec&) -> Result<render::Picture> {
+                                                              return Error{"none", ""};
+                                                          })),
           cameras(model, world, threads) {
         cameras.update({});
     }

@@ -44,7 +44,7 @@ struct TraceTree {
 };
 
 struct TraceWorld {
-    TraceTree trees[2];  // what stands still, what moves
+    TraceTree trees[2];            // what stands still, what moves
     double centre[3] = {0, 0, 0};  // that the trees' boxes are relative to
     const TraceItem* items = nullptr;
     const TraceMesh* meshes = nullptr;

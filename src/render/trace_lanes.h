@@ -61,8 +61,8 @@ class LaneTracer final : public Tracer {
                   (low.z - rays.o.z) * rays.inverse.z};
         const V b{(high.x - rays.o.x) * rays.inverse.x, (high.y - rays.o.y) * rays.inverse.y,
                   (high.z - rays.o.z) * rays.inverse.z};
-        const F enter = larger(larger(smaller(a.x, b.x), smaller(a.y, b.y)),
-                               larger(smaller(a.z, b.z), s.t_min));
+        const F enter =
+            larger(larger(smaller(a.x, b.x), smaller(a.y, b.y)), larger(smaller(a.z, b.z), s.t_min));
         const F leave = smaller(smaller(larger(a.x, b.x), larger(a.y, b.y)), larger(a.z, b.z));
         return (enter <= leave * F(1.000001)) & (enter <= s.best) & s.active;
     }
@@ -88,7 +88,9 @@ class LaneTracer final : public Tracer {
             for (std::size_t k = 0; k < 3; ++k)
                 ahead += (static_cast<double>(right.min[k] + right.max[k]) -
                           static_cast<double>(left.min[k] + left.max[k])) *
-                         (k == 0 ? rays.d.x : k == 1 ? rays.d.y : rays.d.z)[lane];
+                         (k == 0   ? rays.d.x
+                          : k == 1 ? rays.d.y
+                                   : rays.d.z)[lane];
             const std::uint32_t near = ahead >= 0 ? 0 : 1;
             stack[depth++] = node.first + 1 - near;
             stack[depth++] = node.first + near;

@@ -56,8 +56,7 @@ ExactHit measure_hit(const CameraScene& scene, const CameraView& view, const Vec
         d[k] = R[k] * d_W.x + R[3 + k] * d_W.y + R[6 + k] * d_W.z;
     }
     const bool hollow = number >= view.housing.first && number < view.housing.last;
-    const VisualMesh* mesh =
-        item.kind == TraceKind::kMesh ? scene.world().meshes[item.mesh].get() : nullptr;
+    const VisualMesh* mesh = item.kind == TraceKind::kMesh ? scene.world().meshes[item.mesh].get() : nullptr;
     return exact_hit(item, mesh, triangle, o, d, t_min, hollow);
 }
 
@@ -67,7 +66,8 @@ std::vector<Sighting> sight(const CameraScene& scene, const CameraView& view, do
     from.optics.near = near, from.optics.far = far;
     const Lens lens(optics);
     const Tracer& tracer = best_tracer();
-    std::vector<Sighting> seen(static_cast<std::size_t>(optics.width) * static_cast<std::size_t>(optics.height));
+    std::vector<Sighting> seen(static_cast<std::size_t>(optics.width) *
+                               static_cast<std::size_t>(optics.height));
     const auto bands = static_cast<std::size_t>((optics.height + kBlockRows - 1) / kBlockRows);
     scene.share_out(bands, [&](std::size_t band) {
         const int row = static_cast<int>(band) * kBlockRows;
@@ -78,7 +78,8 @@ std::vector<Sighting> sight(const CameraScene& scene, const CameraView& view, do
             if (block.lit != 0) tracer.nearest(scene.trace(), block.rays, hits);
             for (std::size_t i = 0; i < kPacket; ++i) {
                 if ((block.lit >> i & 1u) == 0 || hits.item[i] == kNothing) continue;
-                const ExactHit hit = measure_hit(scene, from, block.d_W[i], hits.item[i], hits.triangle[i], near);
+                const ExactHit hit =
+                    measure_hit(scene, from, block.d_W[i], hits.item[i], hits.triangle[i], near);
                 seen[pixel_of(optics, block, i)] = {hit.t * block.d_C[i].x, hits.item[i]};
             }
         }

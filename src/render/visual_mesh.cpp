@@ -51,7 +51,8 @@ void VisualMesh::smooth(const SceneMesh& mesh) {
     for (std::size_t v = 1; v < starts.size(); ++v) starts[v] += starts[v - 1];
     std::vector<std::uint32_t> around(3 * corners_.size()), filled(starts.begin(), starts.end() - 1);
     for (std::size_t t = 0; t < corners_.size(); ++t)
-        for (const std::uint32_t corner : corners_[t]) around[filled[corner]++] = static_cast<std::uint32_t>(t);
+        for (const std::uint32_t corner : corners_[t])
+            around[filled[corner]++] = static_cast<std::uint32_t>(t);
     constexpr std::uint32_t kFanMost = 64;  // of a larger fan (a cap's middle) the face itself counts
     normals_.resize(corners_.size());
     for (std::size_t t = 0; t < corners_.size(); ++t) {
@@ -92,7 +93,8 @@ Vec3 VisualMesh::smooth_normal(const Place& place) const {
     Vec3 sum;
     for (std::size_t k = 0; k < 3; ++k) {
         const std::array<float, 3>& n = normals_[place.triangle][k];
-        sum += Vec3{static_cast<double>(n[0]), static_cast<double>(n[1]), static_cast<double>(n[2])} * shares[k];
+        sum +=
+            Vec3{static_cast<double>(n[0]), static_cast<double>(n[1]), static_cast<double>(n[2])} * shares[k];
     }
     return unit_or_up(sum);
 }

@@ -13,7 +13,9 @@ class VisualMesh {
   public:
     explicit VisualMesh(const SceneMesh& mesh);
 
-    TraceMesh trace() const { return {tree_.nodes.empty() ? nullptr : tree_.nodes.data(), triangles_.data()}; }
+    TraceMesh trace() const {
+        return {tree_.nodes.empty() ? nullptr : tree_.nodes.data(), triangles_.data()};
+    }
     const Aabb& box() const { return box_; }  // in the frame of the mesh; empty: no triangles
 
     /// A place on a triangle, by the shares of its second and third corner.
@@ -23,8 +25,8 @@ class VisualMesh {
     };
     /// Distance along o + t d to the plane of the triangle, and the place there.
     double cross(const Vec3& o, const Vec3& d, Place& place) const;
-    Vec3 flat_normal(std::uint32_t triangle) const;   // unit, by the order of its corners
-    Vec3 smooth_normal(const Place& place) const;     // unit
+    Vec3 flat_normal(std::uint32_t triangle) const;  // unit, by the order of its corners
+    Vec3 smooth_normal(const Place& place) const;    // unit
     bool has_uv() const { return !uv_.empty(); }
     std::array<double, 2> uv(const Place& place) const;
     /// Pictures by metre on this triangle.
@@ -36,9 +38,9 @@ class VisualMesh {
 
     std::vector<Vec3> vertices_;
     std::vector<std::array<std::uint32_t, 3>> corners_;
-    std::vector<std::array<float, 2>> uv_;                     // by vertex, or none
+    std::vector<std::array<float, 2>> uv_;                      // by vertex, or none
     std::vector<std::array<std::array<float, 3>, 3>> normals_;  // by triangle and corner
-    std::vector<TraceTriangle> triangles_;                     // by leaf of the tree
+    std::vector<TraceTriangle> triangles_;                      // by leaf of the tree
     BoxTree tree_;
     Aabb box_;
 };

@@ -12,7 +12,9 @@ Vec3 squared(const Vec3& c) {
 }
 
 void set_size(TraceItem& item, const SceneShape& from) {
-    const auto set = [&](double a, double b, double c) { item.size[0] = a, item.size[1] = b, item.size[2] = c; };
+    const auto set = [&](double a, double b, double c) {
+        item.size[0] = a, item.size[1] = b, item.size[2] = c;
+    };
     switch (from.kind) {
         case SceneShapeKind::kPlane:
             return set(0.5 * from.size.x, 0.5 * from.size.y, 0);
@@ -76,7 +78,9 @@ VisualShape VisualWorld::shape_of(const SceneShape& from) const {
 }
 
 VisualWorld::VisualWorld(const Scene& from, const Model& model, const DecodePicture& decode)
-    : model_hash(model.hash), look_of(from.robots), scene(from.look.scene.value_or(SceneSpec{})),
+    : model_hash(model.hash),
+      look_of(from.robots),
+      scene(from.look.scene.value_or(SceneSpec{})),
       has_scene(from.look.scene.has_value()) {
     for (const SceneMesh& mesh : from.meshes) meshes.push_back(std::make_unique<const VisualMesh>(mesh));
     for (const auto& mesh : meshes) trace_meshes.push_back(mesh->trace());
@@ -95,7 +99,8 @@ VisualWorld::VisualWorld(const Scene& from, const Model& model, const DecodePict
         std::vector<VisualLink>& links = looks.emplace_back(type.links.size());
         for (std::size_t l = 0; l < links.size(); ++l) {
             add_shapes(type.links[l].visuals, links[l]);
-            for (const LightSpec& light : type.links[l].lights) links[l].lights.push_back({light, light.X_FL});
+            for (const LightSpec& light : type.links[l].lights)
+                links[l].lights.push_back({light, light.X_FL});
         }
     }
     add_shapes(from.statics, scenery);

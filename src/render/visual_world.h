@@ -8,6 +8,7 @@
 
 #include "render/picture.h"
 #include "render/visual_mesh.h"
+#include "render/visuals_of.h"
 
 namespace roboss::render {
 
@@ -45,10 +46,10 @@ class VisualWorld {
     VisualWorld(const VisualWorld&) = delete;
     VisualWorld& operator=(const VisualWorld&) = delete;
 
-    std::uint64_t model_hash = 0;               // of the Model that it is of
+    std::uint64_t model_hash = 0;                // of the Model that it is of
     std::vector<std::vector<VisualLink>> looks;  // links of robots that look alike
-    std::vector<std::size_t> look_of;           // by RobotId
-    VisualLink scenery;                         // in the world
+    std::vector<std::size_t> look_of;            // by RobotId
+    VisualLink scenery;                          // in the world
     SceneSpec scene;
     bool has_scene = false;  // the file says something of it
     std::vector<std::unique_ptr<const VisualMesh>> meshes;
@@ -59,9 +60,6 @@ class VisualWorld {
   private:
     VisualShape shape_of(const SceneShape& from) const;
 };
-
-/// The visuals of a Model; called when the first camera of a run is read.
-using VisualsOf = std::function<std::shared_ptr<const VisualWorld>(const Model&)>;
 
 /// Its box in the frame of the shape, m.
 Aabb box_of(const TraceItem& item, const std::vector<std::unique_ptr<const VisualMesh>>& meshes);

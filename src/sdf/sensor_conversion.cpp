@@ -52,11 +52,12 @@ void complete_camera(SensorParameters& parameters, const Element& sensor, const 
     std::string* format = nullptr;
     if (auto* camera = std::get_if<ColorCameraSpec>(&parameters)) format = &camera->format;
     if (auto* camera = std::get_if<RgbdCameraSpec>(&parameters)) format = &camera->format;
-    if (format != nullptr &&
-        !is_one_of("R8G8B8|RGB_INT8|B8G8R8|BGR_INT8|L8|L_INT8|RGB_INT32|", *format) && !format->empty()) {
-        import.diagnostics().warning(sensor.child("camera").child("image").where(), "sensor",
-                                     "images of <format> '" + *format + "' are not made; it is taken as R8G8B8",
-                                     "Use R8G8B8, B8G8R8 or L8.");
+    if (format != nullptr && !is_one_of("R8G8B8|RGB_INT8|B8G8R8|BGR_INT8|L8|L_INT8|RGB_INT32|", *format) &&
+        !format->empty()) {
+        import.diagnostics().warning(
+            sensor.child("camera").child("image").where(), "sensor",
+            "images of <format> '" + *format + "' are not made; it is taken as R8G8B8",
+            "Use R8G8B8, B8G8R8 or L8.");
         *format = "R8G8B8";
     }
     auto* thermal = std::get_if<ThermalCameraSpec>(&parameters);

@@ -114,7 +114,8 @@ void read_marks(const Element& visual, const Import& import, VisualSpec& spec) {
 int read_label(const Element& plugin, const Import& import) {
     const int label = import.reader.integer(plugin, "label", 0);
     if (label >= 0 && label <= 255) return label;
-    import.diagnostics().warning(plugin.where(), "label", "a <label> of " + std::to_string(label) + " has no effect",
+    import.diagnostics().warning(plugin.where(), "label",
+                                 "a <label> of " + std::to_string(label) + " has no effect",
                                  "Write a number from 1 to 255.");
     return 0;
 }

@@ -30,9 +30,9 @@ struct CameraReading {
 struct ColorCameraSpec {
     using Reading = CameraReading;  ///< what it measures
 
-    CameraOptics optics;              ///< size, lens, clip planes
-    std::string format = "R8G8B8";    ///< SDF `<image><format>`: R8G8B8, B8G8R8 or L8
-    NoiseSpec noise;                  ///< of each channel, 0..1
+    CameraOptics optics;            ///< size, lens, clip planes
+    std::string format = "R8G8B8";  ///< SDF `<image><format>`: R8G8B8, B8G8R8 or L8
+    NoiseSpec noise;                ///< of each channel, 0..1
 
     /// What this kind states about itself.
     static constexpr SensorKind kKind{.number = 44,

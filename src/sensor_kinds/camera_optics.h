@@ -14,37 +14,37 @@ namespace roboss {
 /// (u + 0.5, v + 0.5) of the image plane.
 ///
 /// Pinhole: a point at depth x is seen at u = fx * (-y / x) + s * (-z / x) + cx and v = fy * (-z / x) + cy.
-/// Without `<intrinsics>`, fx = fy = width / (2 tan(horizontal_fov / 2)), and the centre is that of the image.
-/// Distortion (Brown and Conrady) moves a point (a, b) of the plane at depth 1 to a point at
-/// (a, b) (1 + k1 r^2 + k2 r^4 + k3 r^6) + (2 p1 a b + p2 (r^2 + 2 a^2), p1 (r^2 + 2 b^2) + 2 p2 a b).
+/// Without `<intrinsics>`, fx = fy = width / (2 tan(horizontal_fov / 2)), and the centre is that of the
+/// image. Distortion (Brown and Conrady) moves a point (a, b) of the plane at depth 1 to a point at (a, b) (1
+/// + k1 r^2 + k2 r^4 + k3 r^6) + (2 p1 a b + p2 (r^2 + 2 a^2), p1 (r^2 + 2 b^2) + 2 p2 a b).
 ///
 /// Wide angle: r = c1 f fun(theta / c2 + c3), theta from the axis, r from the centre in halves of the width.
 struct CameraOptics {
-    int width = 320,                   ///< pixels
-        height = 240;                  ///< pixels
-    double horizontal_fov = 1.047;     ///< rad
-    double near = 0.1,                 ///< m along the axis; nearer nothing is seen
-        far = 100;                     ///< m along the axis; farther nothing is seen
-    Pose X_SC;                         ///< camera in sensor
-    int anti_aliasing = 1;             ///< rays by pixel of a colour image: 1, 2, 4 or 8
-    double fx = 0,                     ///< pixels; 0: by horizontal_fov
-        fy = 0,                        ///< pixels
-        cx = 0,                        ///< pixels
-        cy = 0,                        ///< pixels
-        skew = 0;                      ///< pixels
-    double k1 = 0,                     ///< radial
-        k2 = 0,                        ///< radial
-        k3 = 0,                        ///< radial
-        p1 = 0,                        ///< tangential
-        p2 = 0;                        ///< tangential
-    std::string lens = "gnomonical";   ///< SDF `<lens><type>`; of wide angle cameras
-    bool scale_to_hfov = true;         ///< f such that the horizontal field of view fills the width
-    double c1 = 1,                     ///< of a custom lens
-        c2 = 1,                        ///< of a custom lens
-        c3 = 0,                        ///< of a custom lens, rad
-        f = 1;                         ///< of a custom lens; without scale_to_hfov of any
-    std::string fun = "tan";           ///< of a custom lens: tan, sin or id
-    double cutoff_angle = 0.5 * kPi;   ///< rad from the axis; beyond it all is black
+    int width = 320,                  ///< pixels
+        height = 240;                 ///< pixels
+    double horizontal_fov = 1.047;    ///< rad
+    double near = 0.1,                ///< m along the axis; nearer nothing is seen
+        far = 100;                    ///< m along the axis; farther nothing is seen
+    Pose X_SC;                        ///< camera in sensor
+    int anti_aliasing = 1;            ///< rays by pixel of a colour image: 1, 2, 4 or 8
+    double fx = 0,                    ///< pixels; 0: by horizontal_fov
+        fy = 0,                       ///< pixels
+        cx = 0,                       ///< pixels
+        cy = 0,                       ///< pixels
+        skew = 0;                     ///< pixels
+    double k1 = 0,                    ///< radial
+        k2 = 0,                       ///< radial
+        k3 = 0,                       ///< radial
+        p1 = 0,                       ///< tangential
+        p2 = 0;                       ///< tangential
+    std::string lens = "gnomonical";  ///< SDF `<lens><type>`; of wide angle cameras
+    bool scale_to_hfov = true;        ///< f such that the horizontal field of view fills the width
+    double c1 = 1,                    ///< of a custom lens
+        c2 = 1,                       ///< of a custom lens
+        c3 = 0,                       ///< of a custom lens, rad
+        f = 1;                        ///< of a custom lens; without scale_to_hfov of any
+    std::string fun = "tan";          ///< of a custom lens: tan, sin or id
+    double cutoff_angle = 0.5 * kPi;  ///< rad from the axis; beyond it all is black
 
     /// Whether all lines stay straight.
     bool is_pinhole() const { return lens == "gnomonical"; }
@@ -95,9 +95,9 @@ struct CameraOptics {
     void check(std::vector<SensorProblem>& problems) const {
         constexpr int kSideMax = 8192;
         if (width < 1 || height < 1 || width > kSideMax || height > kSideMax)
-            problems.push_back({"has an image of " + std::to_string(width) + " x " + std::to_string(height) +
-                                    " pixels",
-                                "Write <width> and <height> from 1 to " + std::to_string(kSideMax) + "."});
+            problems.push_back(
+                {"has an image of " + std::to_string(width) + " x " + std::to_string(height) + " pixels",
+                 "Write <width> and <height> from 1 to " + std::to_string(kSideMax) + "."});
         if (!(near > 0 && far > near))
             problems.push_back(
                 {"sees from " + std::to_string(near) + " to " + std::to_string(far) + " m: it sees nothing",
@@ -116,9 +116,10 @@ struct CameraOptics {
         };
         if (!is_one_of(lens, {"gnomonical", "stereographic", "equidistant", "equisolid_angle", "orthographic",
                               "custom"}))
-            problems.push_back({"has a lens of type '" + lens + "', which is not known",
-                                "Use gnomonical, stereographic, equidistant, equisolid_angle, orthographic or "
-                                "custom."});
+            problems.push_back(
+                {"has a lens of type '" + lens + "', which is not known",
+                 "Use gnomonical, stereographic, equidistant, equisolid_angle, orthographic or "
+                 "custom."});
         if (!is_one_of(fun, {"tan", "sin", "id"}) || c1 == 0 || c2 == 0 || f == 0)
             problems.push_back({"has a <custom_function> that cannot be inverted",
                                 "Write tan, sin or id as <fun>, and c1, c2 and f other than 0."});

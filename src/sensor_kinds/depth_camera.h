@@ -83,11 +83,11 @@ struct RgbdCameraReading {
 struct RgbdCameraSpec {
     using Reading = RgbdCameraReading;  ///< what it measures
 
-    CameraOptics optics;             ///< size, lens, clip planes
-    double depth_near = 0,           ///< m; 0: that of the optics
-        depth_far = 0;               ///< m; 0: that of the optics
-    std::string format = "R8G8B8";   ///< SDF `<image><format>`: R8G8B8, B8G8R8 or L8
-    NoiseSpec noise;                 ///< m, of depth
+    CameraOptics optics;            ///< size, lens, clip planes
+    double depth_near = 0,          ///< m; 0: that of the optics
+        depth_far = 0;              ///< m; 0: that of the optics
+    std::string format = "R8G8B8";  ///< SDF `<image><format>`: R8G8B8, B8G8R8 or L8
+    NoiseSpec noise;                ///< m, of depth
 
     /// What this kind states about itself.
     static constexpr SensorKind kKind{.number = 46,

@@ -12,8 +12,9 @@ namespace roboss {
 
 /// What a segmentation camera sees.
 struct SegmentationCameraReading {
-    Image<std::uint8_t> labels;      ///< label of each pixel; 0: nothing with a label
-    Image<std::uint16_t> instances;  ///< of instance and panoptic segmentation: which one of its label, from 1
+    Image<std::uint8_t> labels;  ///< label of each pixel; 0: nothing with a label
+    Image<std::uint16_t>
+        instances;  ///< of instance and panoptic segmentation: which one of its label, from 1
     std::vector<double> intrinsics,  ///< fx fy cx cy, pixels
         distortion;                  ///< k1 k2 p1 p2 k3
     Tick tick = 0;                   ///< of the measurement
@@ -65,11 +66,11 @@ struct SegmentationCameraSpec {
 
 /// The labelled things in the image, in the order of the world.
 struct BoxCameraReading {
-    std::vector<double> boxes,   ///< 2-D: left, top, right, bottom of each, pixels, one behind the other
-        positions,               ///< 3-D: centres in the camera's frame, x y z, m
-        orientations,            ///< 3-D: w x y z of each
-        sizes,                   ///< 3-D: edges along the axes of each box, m
-        labels;                  ///< of each
+    std::vector<double> boxes,       ///< 2-D: left, top, right, bottom of each, pixels, one behind the other
+        positions,                   ///< 3-D: centres in the camera's frame, x y z, m
+        orientations,                ///< 3-D: w x y z of each
+        sizes,                       ///< 3-D: edges along the axes of each box, m
+        labels;                      ///< of each
     std::vector<double> intrinsics,  ///< fx fy cx cy, pixels
         distortion;                  ///< k1 k2 p1 p2 k3
     Tick tick = 0;                   ///< of the measurement
@@ -123,8 +124,8 @@ struct BoxCameraSpec {
     void check(std::vector<SensorProblem>& problems) const {
         optics.check(problems);
         if (!is_visible() && !is_full() && type != "3d")
-            problems.push_back({"has a <box_type> of '" + type + "', which is not known",
-                                "Use visible_2d, full_2d or 3d."});
+            problems.push_back(
+                {"has a <box_type> of '" + type + "', which is not known", "Use visible_2d, full_2d or 3d."});
     }
 };
 

@@ -30,12 +30,12 @@ struct ThermalCameraReading {
 struct ThermalCameraSpec {
     using Reading = ThermalCameraReading;  ///< what it measures
 
-    CameraOptics optics;     ///< size, lens, clip planes
-    double ambient = 288.15, ///< K, of what has no temperature, and of the sky
-        min = 0,             ///< K, ThermalSensor plugin
-        max = 655.35,        ///< K, ThermalSensor plugin
-        resolution = 0.01;   ///< K, ThermalSensor plugin
-    NoiseSpec noise;         ///< K
+    CameraOptics optics;      ///< size, lens, clip planes
+    double ambient = 288.15,  ///< K, of what has no temperature, and of the sky
+        min = 0,              ///< K, ThermalSensor plugin
+        max = 655.35,         ///< K, ThermalSensor plugin
+        resolution = 0.01;    ///< K, ThermalSensor plugin
+    NoiseSpec noise;          ///< K
 
     /// What this kind states about itself.
     static constexpr SensorKind kKind{.number = 49,
@@ -48,8 +48,8 @@ struct ThermalCameraSpec {
                                       .is_image = true,
                                       .ignored = CameraOptics::kIgnored};
 
-    /// Calls visit(Parameter, value) for each parameter, always in the same order. The importer reads those of
-    /// the ThermalSensor plugin, which stands beside the block.
+    /// Calls visit(Parameter, value) for each parameter, always in the same order. The importer reads those
+    /// of the ThermalSensor plugin, which stands beside the block.
     template <class Visitor, class Self>
     static void parameters(Visitor&& visit, Self& s) {
         CameraOptics::parameters(visit, s.optics);
@@ -65,8 +65,8 @@ struct ThermalCameraSpec {
     void check(std::vector<SensorProblem>& problems) const {
         optics.check(problems);
         if (!(max > min))
-            problems.push_back({"has temperatures from " + std::to_string(min) + " to " + std::to_string(max) +
-                                    " K: it sees nothing",
+            problems.push_back({"has temperatures from " + std::to_string(min) + " to " +
+                                    std::to_string(max) + " K: it sees nothing",
                                 "Write <min_temp> below <max_temp>."});
     }
 };

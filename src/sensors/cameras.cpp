@@ -38,7 +38,8 @@ bool is_noisy(const NoiseSpec& noise) {
 /// As the format orders channels: B8G8R8 blue first, L8 one of grey (ITU-R BT.601).
 Image<std::uint8_t> in_format(Image<std::uint8_t> rgb, const std::string& format) {
     if (format.starts_with("B8G8R8") || format.starts_with("BGR"))
-        for (std::size_t i = 0; i + 2 < rgb.samples.size(); i += 3) std::swap(rgb.samples[i], rgb.samples[i + 2]);
+        for (std::size_t i = 0; i + 2 < rgb.samples.size(); i += 3)
+            std::swap(rgb.samples[i], rgb.samples[i + 2]);
     if (!format.starts_with("L8") && !format.starts_with("L_")) return rgb;
     Image<std::uint8_t> grey(rgb.rows, rgb.columns, 1);
     for (std::size_t i = 0; i < grey.samples.size(); ++i) {
@@ -69,7 +70,8 @@ Image<float> depth_image(const CameraScene& scene, const CameraView& view, doubl
             depth.samples[i] = -std::numeric_limits<float>::infinity();
         else if (measured <= far)
             depth.samples[i] = static_cast<float>(
-                is_noisy(noise) ? std::clamp(noisy_value(measured, noise, query, 0, i), near, far) : measured);
+                is_noisy(noise) ? std::clamp(noisy_value(measured, noise, query, 0, i), near, far)
+                                : measured);
     }
     return depth;
 }
@@ -77,10 +79,11 @@ Image<float> depth_image(const CameraScene& scene, const CameraView& view, doubl
 }  // namespace
 
 Result<const CameraScene*> SensorSources::camera_scene() {
-    return Error{"cameras see the visuals of a world, which are not in its Model, and here is only the Model",
-                 "read cameras where the world file is loaded: in Python, in `roboss sense`, or in a program of "
-                 "`roboss run`",
-                 "no-look"};
+    return Error{
+        "cameras see the visuals of a world, which are not in its Model, and here is only the Model",
+        "read cameras where the world file is loaded: in Python, in `roboss sense`, or in a program of "
+        "`roboss run`",
+        "no-look"};
 }
 
 Result<CameraReading> read(const ColorCameraSpec& camera, const SensorQuery& query) {
@@ -99,7 +102,8 @@ Result<DepthCameraReading> read(const DepthCameraSpec& camera, const SensorQuery
     if (!scene) return scene.error();
     const CameraView view = view_of(camera.optics, query, *scene.value());
     DepthCameraReading reading;
-    reading.depth = depth_image(*scene.value(), view, camera.optics.near, camera.optics.far, camera.noise, query);
+    reading.depth =
+        depth_image(*scene.value(), view, camera.optics.near, camera.optics.far, camera.noise, query);
     add_info(camera.optics, reading);
     return reading;
 }

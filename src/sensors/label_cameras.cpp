@@ -18,8 +18,7 @@ struct LabelView {
     std::vector<std::uint32_t> things{};  // by pixel, or CameraScene::kNoThing
 
     void look() {
-        const std::vector<render::Sighting> seen =
-            sight(scene, view, view.optics.near, view.optics.far);
+        const std::vector<render::Sighting> seen = sight(scene, view, view.optics.near, view.optics.far);
         for (const render::Sighting& one : seen)
             things.push_back(one.item == render::kNothing ? CameraScene::kNoThing : scene.thing_of(one.item));
     }

@@ -3,6 +3,7 @@
 
 #include "core/float_env.h"
 #include "mesh/image_file.h"
+#include "render/visual_world.h"
 
 namespace roboss {
 namespace {

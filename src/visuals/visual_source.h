@@ -6,7 +6,7 @@
 #include <mutex>
 #include <vector>
 
-#include "render/visual_world.h"
+#include "render/visuals_of.h"
 #include "world/world.h"
 
 namespace roboss {

@@ -22,8 +22,9 @@ Result<> write_bytes(const std::string& file, const std::string& bytes) {
 }
 
 Error does_not_fit(const std::string& file, const SensorSpec& sensor, const std::string& remedy) {
-    return {"a reading of sensor '" + sensor.name + "', " + sensor.kind().phrase + ", is not written as " + file,
-            remedy, "reading-format"};
+    return {
+        "a reading of sensor '" + sensor.name + "', " + sensor.kind().phrase + ", is not written as " + file,
+        remedy, "reading-format"};
 }
 
 /// Whole numbers of 16 bits: value / unit, 0 where it is not finite.
@@ -63,7 +64,8 @@ template <class T>
 std::string npy(const char* type, const std::vector<int>& shape, const std::vector<T>& values) {
     std::string sizes;
     for (const int size : shape) sizes += fmt::format("{}, ", size);
-    std::string header = fmt::format("{{'descr': '{}', 'fortran_order': False, 'shape': ({}), }}", type, sizes);
+    std::string header =
+        fmt::format("{{'descr': '{}', 'fortran_order': False, 'shape': ({}), }}", type, sizes);
     constexpr std::size_t kPrefix = 10, kAligned = 64;
     header.append(kAligned - (kPrefix + header.size() + 1) % kAligned, ' ');
     header += '\n';
@@ -146,16 +148,17 @@ std::string pcd(const Image<float>& depth, const Image<std::uint8_t>* color, con
             ++count;
             if (color == nullptr) continue;
             const std::uint8_t* rgb = &color->samples[3 * pixel];
-            const std::uint32_t packed = static_cast<std::uint32_t>(rgb[0]) << 16 |
-                                         static_cast<std::uint32_t>(rgb[1]) << 8 | rgb[2];
+            const std::uint32_t packed =
+                static_cast<std::uint32_t>(rgb[0]) << 16 | static_cast<std::uint32_t>(rgb[1]) << 8 | rgb[2];
             add(&packed);
         }
     const bool painted = color != nullptr;
-    return fmt::format("# .PCD v0.7 - points in the camera's frame, m\nVERSION 0.7\nFIELDS x y z{}\nSIZE 4 4 4{}\n"
-                       "TYPE F F F{}\nCOUNT 1 1 1{}\nWIDTH {}\nHEIGHT 1\nVIEWPOINT 0 0 0 1 0 0 0\nPOINTS {}\nDATA "
-                       "binary\n",
-                       painted ? " rgb" : "", painted ? " 4" : "", painted ? " U" : "", painted ? " 1" : "", count,
-                       count) +
+    return fmt::format(
+               "# .PCD v0.7 - points in the camera's frame, m\nVERSION 0.7\nFIELDS x y z{}\nSIZE 4 4 4{}\n"
+               "TYPE F F F{}\nCOUNT 1 1 1{}\nWIDTH {}\nHEIGHT 1\nVIEWPOINT 0 0 0 1 0 0 0\nPOINTS {}\nDATA "
+               "binary\n",
+               painted ? " rgb" : "", painted ? " 4" : "", painted ? " U" : "", painted ? " 1" : "", count,
+               count) +
            points;
 }
 

@@ -1,5 +1,5 @@
-// One reading of a sensor as a file: PNG and NumPy arrays of images, point clouds (PCD) of depth images, CSV of
-// everything else.
+// One reading of a sensor as a file: PNG and NumPy arrays of images, point clouds (PCD) of depth images, CSV
+// of everything else.
 #pragma once
 
 #include <string>

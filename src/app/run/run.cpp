@@ -19,8 +19,8 @@
 #include "client/triggers/triggers.h"
 #include "core/hash.h"
 #include "scene/scene_file.h"
-#include "visuals/visual_source.h"
 #include "sdf/load_world.h"
+#include "visuals/visual_source.h"
 
 namespace roboss {
 namespace {

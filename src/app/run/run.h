@@ -129,11 +129,11 @@ class Run {
     Progress progress_;
     std::shared_ptr<const Model> model_;
     std::shared_ptr<const Model>
-        world_model_;                   // of the world file, to which a reset returns; null: of a replay
-    ModelVisuals visuals_;              // for the viewer; none: of a replay
-    RemovedRobots removed_;             // that may be brought back
+        world_model_;        // of the world file, to which a reset returns; null: of a replay
+    ModelVisuals visuals_;   // for the viewer; none: of a replay
+    RemovedRobots removed_;  // that may be brought back
     std::shared_ptr<const render::VisualWorld> visual_world_;  // of the first camera that was read
-    std::unique_ptr<Gateway> gateway_;  // none: headless
+    std::unique_ptr<Gateway> gateway_;                         // none: headless
     std::unique_ptr<ControlSocket> socket_;
     std::optional<RunListing> listing_;
     /// To which `reset save` returns.

@@ -97,8 +97,8 @@ Result<> take_reading(const SenseOptions& options, const SensedRun& run) {
     if (!found) return found.error();
     const RobotId robot = found.value().first;
     StatesOfTick sources(run);
-    const Result<Sample> sample = measure({run.model, robot, found.value().second, run.states[robot.index()],
-                                           run.tick, run.seed, sources});
+    const Result<Sample> sample = measure(
+        {run.model, robot, found.value().second, run.states[robot.index()], run.tick, run.seed, sources});
     if (!sample) return sample.error();
     for (const std::string& problem : sources.problems())
         fmt::print(stderr, "note: a picture is not shown: {}\n", problem);
@@ -115,7 +115,9 @@ void add_sense_command(CLI::App& app, int& exit_code) {
     const std::string group = "Reading";
     command->add_option("--robot", options->sense.robot, "name of the robot")->required()->group(group);
     command->add_option("--sensor", options->sense.sensor, "name of its sensor")->required()->group(group);
-    command->add_option("-o,--output", options->sense.file, "PNG, NPY, PCD or CSV file")->required()->group(group);
+    command->add_option("-o,--output", options->sense.file, "PNG, NPY, PCD or CSV file")
+        ->required()
+        ->group(group);
     command->add_option("--at", options->until_s, "world time of the reading, s (default: the start)")
         ->check(non_negative_number())
         ->group(group);

@@ -8,7 +8,7 @@
 #include "core/result.h"
 #include "model/model.h"
 #include "model/robot_state.h"
-#include "render/visual_world.h"
+#include "render/visuals_of.h"
 
 namespace roboss {
 

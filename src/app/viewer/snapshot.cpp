@@ -99,7 +99,8 @@ CLI::Validator list_of(const std::vector<std::string>& known) {
 bool look_through(SnapshotOptions& snapshot, SenseOptions& sense) {
     for (const auto& [key, value] : snapshot.parameters) {
         const std::size_t slash = value.rfind('/');
-        if (key != "camera" || slash == std::string::npos || followed_at(value) != std::string::npos) continue;
+        if (key != "camera" || slash == std::string::npos || followed_at(value) != std::string::npos)
+            continue;
         sense = {value.substr(0, slash), value.substr(slash + 1), snapshot.file};
         snapshot = {};
         return true;
@@ -126,10 +127,11 @@ void add_snapshot_options(CLI::App& command, SnapshotOptions& o) {
                 [&o, key](const std::string& value) { o.parameters.emplace_back(key, value); }, what)
             ->group(group);
     };
-    parameter("camera",
-              "x,y,z,azimuth,elevation,distance (point to look at, m; degrees; m), top, front, side, "
-              "isometric, file (the file's camera), follow:ROBOT, chase:ROBOT, or ROBOT/SENSOR (a camera of a "
-              "robot, without a browser)")
+    parameter(
+        "camera",
+        "x,y,z,azimuth,elevation,distance (point to look at, m; degrees; m), top, front, side, "
+        "isometric, file (the file's camera), follow:ROBOT, chase:ROBOT, or ROBOT/SENSOR (a camera of a "
+        "robot, without a browser)")
         ->check(CLI::Validator([](std::string& text) { return fault_of_camera(text); }, "CAMERA"));
     parameter("select", "name of the robot to select");
     parameter("colour", "colour robots by model, simulator, island or speed")
