@@ -90,7 +90,7 @@ class Sensor:
         width = _ROWS.get((self.kind, name), 1)
         if kind == "quat":
             name += "_quat_xyzw"
-        elif width == 4:  # w x y z, one behind the other
+        elif width == 4 and name == "orientations":  # w x y z, one behind the other
             name += "_quat_xyzw"
             values = np.roll(np.reshape(values, (-1, 4)), -1, axis=1).ravel()
         lead = (*self.robots.simulation._shape, len(counts) // len(self.robots._simulations))
