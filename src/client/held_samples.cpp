@@ -65,7 +65,7 @@ Sample read_sample(Reader& a, std::uint32_t kind) {
         std::visit([]<class Reading>(const Reading&) { return !kind_of_reading<Reading>().is_image; },
                    sample);
     if (!held) {
-        a.fail("a sample is of no kind that is held");
+        a.fail(known ? "a sample is an image, which is never held" : "a sample is of no known kind");
         return sample;
     }
     visit_fields(sample, FieldArchive<Reader>{a});
