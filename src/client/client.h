@@ -161,6 +161,7 @@ class Client : private SensorSources {
     Result<> restore_samples(const std::string& bytes);
 
   protected:
+    /// What cameras see at the observed tick; an Error, "no-look", where no visuals are at hand.
     Result<const CameraScene*> camera_scene() override { return SensorSources::camera_scene(); }
     /// The robot; throws if there is none.
     const Robot& known(RobotId robot) const;

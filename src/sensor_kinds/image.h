@@ -12,8 +12,9 @@ struct Image {
     int rows = 0, columns = 0, channels = 1;  ///< its shape
     std::vector<T> samples;                   ///< rows * columns * channels of them
 
+    /// Without samples.
     Image() = default;
-    /// All samples are `value`.
+    /// Of r rows, c columns and n channels; all samples are `value`.
     Image(int r, int c, int n, T value = T{})
         : rows(r),
           columns(c),
