@@ -43,6 +43,8 @@ class Batch:
         self.world: World = world if isinstance(world, World) else load(world)  #: that they simulate
         self._core = _core.batch(self.world._model, count, threads_or_all(threads), seed)
         self._simulations = self._core.simulations
+        for simulation in self._simulations:
+            simulation.see(self.world._looks, 1)
         self._shape = (count,)
 
     def step(self, ticks: int = 1) -> NDArray[np.bool_]:

@@ -14,7 +14,9 @@ if TYPE_CHECKING:
 #: Values that are points, vectors or quaternions one behind the other, by kind and name.
 _ROWS = {("contact", "positions"): 3, ("contact", "normals"): 3, ("contact", "forces"): 3,
          ("link poses", "positions"): 3, ("link poses", "orientations"): 4,
-         ("logical camera", "positions"): 3, ("logical camera", "orientations"): 4}
+         ("logical camera", "positions"): 3, ("logical camera", "orientations"): 4,
+         ("box camera", "boxes"): 4, ("box camera", "positions"): 3, ("box camera", "orientations"): 4,
+         ("box camera", "sizes"): 3}
 
 Reading = Union[NDArray, list]
 
@@ -33,9 +35,10 @@ class Sensor:
         self._number = number
 
     def read(self) -> NDArray[np.float64]:
-        """The main value of the kind, (N, values): of a laser its ranges, (N, beams) in m.
+        """The main value of the kind, (N, values): of a laser its ranges, (N, beams) in m; of a camera its images.
 
-        Ranges are `inf` where nothing is within reach, `-inf` where something is too near. Kinds with several values
+        Images are (N, rows, columns, 3) uint8 of a camera, (N, rows, columns) float32 in m of a depth camera, uint8 of
+        a segmentation camera, float32 in K of a thermal camera. Ranges are `inf` where nothing is within reach, `-inf` where something is too near. Kinds with several values
         give the one that read_all() has first. Raises SensorError if it cannot measure.
 
         >>> sim = roboss.Simulation(roboss.example("city.sdf"))
@@ -62,22 +65,37 @@ class Sensor:
         ((50, 4), (50,))
         """
         columns = _core.read(self.robots._simulations, list(self.robots.ids), self._number)
-        return dict(self._shaped(*column) for column in columns)
+        return dict(self._shaped(*column) for column in columns if self._measures(*column))
 
     @property
     def units(self) -> dict[str, str]:
         """Units of the values of read_all(), by name; "" for counts, ratios, rotations."""
         columns = _core.read(self.robots._simulations, list(self.robots.ids[:1]), self._number)
-        return {self._shaped(name, *rest)[0]: rest[0] for name, *rest in columns}
+        return {self._shaped(name, *rest)[0]: rest[0] for name, *rest in columns if self._measures(name, *rest)}
 
-    def _shaped(self, name: str, unit: str, kind: str, values, counts: list[int]) -> tuple[str, Reading]:
+    def _measures(self, name: str, unit: str, kind: str, values, counts: list[int], image: list[int]) -> bool:
+        """Whether a camera of this type gives the value."""
+        if kind == "image":
+            return sum(counts) > 0
+        boxed = self.kind == "box camera" and name in ("boxes", "positions", "orientations", "sizes")
+        return not boxed or (name == "boxes") == (not self._is_3d)
+
+    @property
+    def _is_3d(self) -> bool:
+        """Whether a box camera gives boxes in space."""
+        return _core.box_type(self.robots._simulations[0], int(self.robots.ids[0]), self._number) == "3d"
+
+    def _shaped(self, name: str, unit: str, kind: str, values, counts: list[int],
+                image: list[int]) -> tuple[str, Reading]:
         width = _ROWS.get((self.kind, name), 1)
         if kind == "quat":
             name += "_quat_xyzw"
-        elif width == 4:  # w x y z, one behind the other
+        elif width == 4 and name == "orientations":  # w x y z, one behind the other
             name += "_quat_xyzw"
             values = np.roll(np.reshape(values, (-1, 4)), -1, axis=1).ravel()
         lead = (*self.robots.simulation._shape, len(counts) // len(self.robots._simulations))
+        if kind == "image":
+            return name, values.reshape(*lead, *(image if image[2] > 1 else image[:2]))
         if kind == "text":
             ends = np.cumsum([0] + counts)
             return name, [values[first:last] for first, last in zip(ends[:-1], ends[1:])]

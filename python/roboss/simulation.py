@@ -52,6 +52,7 @@ class Simulation(Run):
 
     def _take(self, core: _core.Simulation) -> None:
         self._core, self._simulations, self._shape, self._in_batch = core, [core], (), False
+        core.see(self.world._looks, core.threads)
 
     def step(self, ticks: int = 1) -> None:
         """Advances the world by `ticks` time steps of `dt`. Other threads of Python run meanwhile; Ctrl-C ends it.

@@ -5,6 +5,7 @@
 #include <nanobind/stl/vector.h>
 
 #include <type_traits>
+#include <variant>
 
 #include "bindings.h"
 #include "simulation.h"
@@ -19,10 +20,13 @@ namespace {
 /// One value of the readings of all robots, one robot behind the other.
 struct Column {
     std::string name, unit;
-    const char* type = "float";  // "float", "int", "bool", "vector", "quat" (x y z w), "list" or "text"
+    const char* type =
+        "float";  // "float", "int", "bool", "vector", "quat" (x y z w), "list", "text", "image"
     std::vector<double> numbers;
     std::vector<std::string> texts;
-    std::vector<std::size_t> counts;  // numbers or texts of each robot
+    std::vector<std::size_t> counts;  // numbers, texts or samples of each robot
+    std::variant<std::vector<std::uint8_t>, std::vector<std::uint16_t>, std::vector<float>> samples;
+    std::vector<int> shape;  // of each image: rows, columns, channels
 };
 
 void add(Column& column, std::initializer_list<double> numbers) {
@@ -53,6 +57,16 @@ void add(Column& column, const std::vector<std::string>& texts) {
 }
 
 template <class T>
+void add(Column& column, const Image<T>& image) {
+    column.type = "image";
+    if (!std::holds_alternative<std::vector<T>>(column.samples)) column.samples = std::vector<T>();
+    auto& samples = std::get<std::vector<T>>(column.samples);
+    samples.insert(samples.end(), image.samples.begin(), image.samples.end());
+    column.counts.push_back(image.samples.size());
+    column.shape = {image.rows, image.columns, image.channels};
+}
+
+template <class T>
 requires std::is_arithmetic_v<T>
 void add(Column& column, T value) {
     if (std::is_same_v<T, bool>)
@@ -70,7 +84,8 @@ Result<> read_all(RunAccess& run, const std::vector<std::uint32_t>& robots, std:
         if (!sample) return sample.error();
         std::size_t at = 0;
         visit_fields(sample.value(), [&](const ReadingField& field, const auto& value) {
-            if (at == columns.size()) columns.push_back({field.name, field.unit, "float", {}, {}, {}});
+            if (at == columns.size())
+                columns.push_back({field.name, field.unit, "float", {}, {}, {}, {}, {}});
             add(columns[at++], value);
         });
     }
@@ -84,16 +99,27 @@ void append(std::vector<Column>& columns, const std::vector<Column>& more) {
         add_all(columns[c].numbers, more[c].numbers);
         add_all(columns[c].texts, more[c].texts);
         add_all(columns[c].counts, more[c].counts);
+        std::visit([&]<class Samples>(Samples& to) { add_all(to, std::get<Samples>(more[c].samples)); },
+                   columns[c].samples);
     }
 }
 
-nb::object to_array(std::vector<double>&& numbers) {
-    auto* const kept = new std::vector<double>(std::move(numbers));
-    const nb::capsule owner(kept, [](void* p) noexcept { delete static_cast<std::vector<double>*>(p); });
-    return nb::cast(nb::ndarray<nb::numpy, double>(kept->data(), {kept->size()}, owner));
+template <class T>
+nb::object to_array(std::vector<T>&& numbers) {
+    auto* const kept = new std::vector<T>(std::move(numbers));
+    const nb::capsule owner(kept, [](void* p) noexcept { delete static_cast<std::vector<T>*>(p); });
+    return nb::cast(nb::ndarray<nb::numpy, T>(kept->data(), {kept->size()}, owner));
 }
 
-/// A list of (name, unit, type, numbers or texts, how many of them each robot has), simulation by simulation.
+nb::object values_of(Column& column) {
+    const std::string type = column.type;
+    if (type == "text") return nb::cast(column.texts);
+    if (type != "image") return to_array(std::move(column.numbers));
+    return std::visit([](auto& samples) { return to_array(std::move(samples)); }, column.samples);
+}
+
+/// A list of (name, unit, type, numbers or texts, how many of them each robot has, shape of an image),
+/// simulation by simulation.
 nb::list read(const Simulations& simulations, const std::vector<std::uint32_t>& robots, std::size_t sensor) {
     std::vector<std::vector<Column>> parts(simulations.size());
     std::vector<Result<>> done(simulations.size(), Ok{});
@@ -105,17 +131,24 @@ nb::list read(const Simulations& simulations, const std::vector<std::uint32_t>& 
     for (std::size_t i = 1; i < parts.size(); ++i) append(columns, parts[i]);
     nb::list result;
     for (Column& column : columns) {
-        const bool is_text = std::string(column.type) == "text";
-        const nb::object values = is_text ? nb::cast(column.texts) : to_array(std::move(column.numbers));
-        result.append(nb::make_tuple(column.name, column.unit, column.type, values, column.counts));
+        result.append(nb::make_tuple(column.name, column.unit, column.type, values_of(column), column.counts,
+                                     column.shape));
     }
     return result;
+}
+
+/// BoxCameraSpec::type; "": it is no such camera.
+std::string box_type(const std::shared_ptr<Simulation>& simulation, std::uint32_t robot, std::size_t sensor) {
+    const RobotType& type = simulation->access().model().type_of(RobotId(robot));
+    const auto* camera = type.sensors[sensor].spec.as<BoxCameraSpec>();
+    return camera != nullptr ? camera->type : "";
 }
 
 }  // namespace
 
 void bind_readings(nb::module_& module) {
     module.def("read", &read, nb::arg("simulations"), nb::arg("robots"), nb::arg("sensor"));
+    module.def("box_type", &box_type, nb::arg("simulation"), nb::arg("robot"), nb::arg("sensor"));
 }
 
 }  // namespace roboss_python

@@ -154,6 +154,12 @@ void bind_simulation(nb::module_& module) {
                 s.show_in(std::move(view), looks.worlds);
             },
             nb::arg("view").none(), nb::arg("looks"))
+        .def(
+            "see",
+            [](Simulation& s, LooksOf& looks, unsigned threads) {
+                s.access().set_visuals(looks.seen(), threads);
+            },
+            nb::arg("looks"), nb::arg("threads"))
         .def("turn_view", &Simulation::turn_view)
         .def("spawn", &spawn, nb::arg("addition"), nb::arg("names"), nb::arg("poses"))
         .def("remove", &remove, nb::arg("names"))

@@ -35,7 +35,7 @@ LooksOf with_copies(const LooksOf& looks, const LooksOf& addition, const Model& 
                     const std::vector<std::string>& names, const std::vector<std::array<double, 7>>& poses) {
     std::vector<CopyPlace> places;
     for (std::size_t i = 0; i < names.size(); ++i) places.push_back({names[i], pose_at(poses[i].data())});
-    LooksOf all = looks;
+    LooksOf all{looks.worlds, {}};
     for (const auto& world : addition.worlds)
         all.worlds.push_back(std::make_shared<const World>(placed_copies(*world, added, places)));
     return all;

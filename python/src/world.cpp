@@ -74,7 +74,7 @@ Loaded load(const Wanted& wanted) {
     if (!model) return {nullptr, diagnostics.items(), Frames{}, LooksOf{}};
     Frames frames = frames_of(*world, *model);
     return {model, diagnostics.items(), std::move(frames),
-            LooksOf{{std::make_shared<const World>(*std::move(world))}}};
+            LooksOf{{std::make_shared<const World>(*std::move(world))}, {}}};
 }
 
 std::string hex(std::uint64_t hash) {

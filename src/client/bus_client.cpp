@@ -92,7 +92,7 @@ void BusClient::take_welcome(const ClientWelcome& welcome) {
         orders_.clear();
         observing_ = false;
         tick_ = -1;
-        scene_tick_ = -1;
+        scene_tick_ = cameras_tick_ = -1;
         forget_measured();
     }
     expected_ = welcome.first;
@@ -246,6 +246,18 @@ RayScene& BusClient::ray_scene() {
         scene_tick_ = tick_;
     }
     return *scene_;
+}
+
+Result<const CameraScene*> BusClient::camera_scene() {
+    if (!visuals_) return Client::camera_scene();
+    if (!cameras_) cameras_ = std::make_unique<CameraScene>(model_, visuals_(*model_), 1);
+    if (cameras_tick_ != tick_) {
+        std::vector<const RobotState*> states;
+        for (const RobotState& state : states_) states.push_back(&state);
+        cameras_->update(states);
+        cameras_tick_ = tick_;
+    }
+    return cameras_.get();
 }
 
 }  // namespace roboss

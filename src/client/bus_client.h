@@ -11,6 +11,7 @@
 #include "bus/bus.h"
 #include "bus/state_pull.h"
 #include "client/client.h"
+#include "render/camera_scene.h"
 
 namespace roboss {
 
@@ -41,6 +42,8 @@ class BusClient : public Client {
 
     /// Handles the messages received and requests what is missing. Never waits.
     void advance(Bus& bus);
+    /// From now on cameras see these visuals; without it a camera cannot be read.
+    void set_visuals(render::VisualsOf visuals) { visuals_ = std::move(visuals); }
     /// A new observation is shown and waits for an answer().
     bool observing() const { return observing_; }
     /// Sends the reply to the observation shown, with the orders given since.
@@ -73,6 +76,7 @@ class BusClient : public Client {
 
   protected:
     RayScene& ray_scene() override;
+    Result<const CameraScene*> camera_scene() override;
     Tick observed_before() const override { return before_; }
 
   private:
@@ -140,6 +144,9 @@ class BusClient : public Client {
 
     std::unique_ptr<RayScene> scene_;
     Tick scene_tick_ = -1;
+    render::VisualsOf visuals_;
+    std::unique_ptr<CameraScene> cameras_;
+    Tick cameras_tick_ = -1;
     std::vector<Envelope> inbox_;
 };
 

@@ -251,7 +251,8 @@ Sample Client::sample(RobotId robot, const SensorRef& wanted, const SensorKind& 
     const HeldSamples::Key key{robot.value, static_cast<std::uint32_t>(sensor)};
     if (const Sample* held = samples_.find(key)) return *held;
     Sample fresh = measure(robot, sensor);
-    return spec.update_rate_hz > 0 ? samples_.put(key, std::move(fresh)) : fresh;
+    const bool holds = spec.update_rate_hz > 0 && !spec.kind().is_image;
+    return holds ? samples_.put(key, std::move(fresh)) : fresh;
 }
 
 void Client::renew_samples() {

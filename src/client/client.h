@@ -130,6 +130,10 @@ class Client : private SensorSources {
     LaserReading laser(const RobotRef& robot, const SensorRef& sensor) {
         return reading<LaserReading>(robot, sensor);
     }
+    /// The image of a colour camera, reading<CameraReading>(). Cameras are measured whenever they are asked.
+    CameraReading camera(const RobotRef& robot, const SensorRef& sensor) {
+        return reading<CameraReading>(robot, sensor);
+    }
     /// reading<OdometerReading>().
     OdometerReading odometer(const RobotRef& robot, const SensorRef& sensor) {
         return reading<OdometerReading>(robot, sensor);
@@ -162,6 +166,8 @@ class Client : private SensorSources {
     Result<> restore_samples(const std::string& bytes);
 
   protected:
+    /// What cameras see at the observed tick; an Error, "no-look", where no visuals are at hand.
+    Result<const CameraScene*> camera_scene() override { return SensorSources::camera_scene(); }
     /// The robot; throws if there is none.
     const Robot& known(RobotId robot) const;
     /// Tick of the observation before this one; of the first one, where it would have been.

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "core/check.h"
 #include "wire/archive.h"
 
 namespace roboss {
@@ -39,6 +40,11 @@ struct FieldArchive {
             a.count(texts.size());
         for (auto& text : texts) field(a, text);
     }
+    /// Images are measured again (SensorKind::is_image).
+    template <class T>
+    void put(const Image<T>&) const {
+        ROBOSS_CHECK(false, "an image is never held");
+    }
     template <class Value>
     void operator()(const ReadingField&, Value& value) const {
         put(value);
@@ -53,8 +59,13 @@ void write_sample(Writer& a, const Sample& sample) {
 
 Sample read_sample(Reader& a, std::uint32_t kind) {
     Sample sample;
-    if (!make_sample(kind, sample)) {
-        a.fail("a sample is of no known kind");
+    const bool known = make_sample(kind, sample);
+    const bool held =
+        known &&
+        std::visit([]<class Reading>(const Reading&) { return !kind_of_reading<Reading>().is_image; },
+                   sample);
+    if (!held) {
+        a.fail(known ? "a sample is an image, which is never held" : "a sample is of no known kind");
         return sample;
     }
     visit_fields(sample, FieldArchive<Reader>{a});

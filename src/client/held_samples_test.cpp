@@ -103,6 +103,9 @@ TEST(HeldSamples, BytesThatAreDamagedAreRefusedAndChangeNothing) {
     ASSERT_FALSE(refused.ok());
     EXPECT_NE(refused.error().message.find("no known kind"), std::string::npos) << refused.error().text();
     EXPECT_EQ(held.bytes_before(14), good);
+    bad[12] = static_cast<char>(ColorCameraSpec::kKind.number);
+    EXPECT_FALSE(held.restore(bad).ok()) << "images are never held";
+    EXPECT_EQ(held.bytes_before(14), good);
 }
 
 }  // namespace

@@ -44,6 +44,12 @@ Json json_of(const std::vector<std::string>& texts) {
     return texts;
 }
 
+/// Its size alone.
+template <class T>
+Json json_of(const Image<T>& image) {
+    return {{"columns", image.columns}, {"rows", image.rows}};
+}
+
 const char* name_of(MotorMode mode) {
     static constexpr const char* kNames[] = {"passive", "velocity", "position", "effort"};
     return kNames[static_cast<std::size_t>(mode) % 4];
@@ -208,6 +214,8 @@ bool Inspector::is_due(RobotId robot, std::size_t sensor) const {
 
 const Sample* Inspector::sample(RobotId robot, std::size_t sensor) {
     const HeldSamples::Key key(robot.value, static_cast<std::uint32_t>(sensor));
+    if (scene_->model->type_of(robot).sensors[sensor].spec.kind().is_image)
+        return nullptr;  // no page shows it
     if (is_due(robot, sensor)) {
         Result<Sample> measured = measure(
             {*scene_->model, robot, sensor, *states_[robot.index()], tick_, scene_->file.seed, *this});

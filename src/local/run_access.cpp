@@ -1,7 +1,13 @@
 // See run_access.h.
 #include "local/run_access.h"
 
+#include "render/camera_scene.h"
+
 namespace roboss {
+
+RunAccess::RunAccess(std::shared_ptr<const Model> model) : model_(std::move(model)) {}
+
+RunAccess::~RunAccess() = default;
 
 std::uint64_t RunAccess::hash() const {
     std::vector<std::uint64_t> hashes;
@@ -28,6 +34,21 @@ RayScene& RunAccess::ray_scene() {
     if (!rays_are_new_) rays_->update(pointers());
     rays_are_new_ = true;
     return *rays_;
+}
+
+void RunAccess::set_visuals(render::VisualsOf visuals, unsigned threads) {
+    visuals_ = std::move(visuals);
+    camera_threads_ = threads;
+    cameras_.reset();
+    cameras_are_new_ = false;
+}
+
+Result<const CameraScene*> RunAccess::camera_scene() {
+    if (!visuals_) return SensorSources::camera_scene();
+    if (!cameras_) cameras_ = std::make_unique<CameraScene>(model_, visuals_(*model_), camera_threads_);
+    if (!cameras_are_new_) cameras_->update(pointers());
+    cameras_are_new_ = true;
+    return cameras_.get();
 }
 
 StepProbe& RunAccess::step_probe() {

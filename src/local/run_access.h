@@ -9,6 +9,7 @@
 #include "core/result.h"
 #include "model/order.h"
 #include "physics/probe.h"
+#include "render/visuals_of.h"
 #include "sensors/readings.h"
 
 namespace roboss {
@@ -17,7 +18,8 @@ namespace roboss {
 class RunAccess : private SensorSources {
   public:
     /// Of this world.
-    explicit RunAccess(std::shared_ptr<const Model> model) : model_(std::move(model)) {}
+    explicit RunAccess(std::shared_ptr<const Model> model);
+    ~RunAccess() override;
 
     const Model& model() const { return *model_; }                               ///< the compiled world
     const std::shared_ptr<const Model>& shared_model() const { return model_; }  ///< the same
@@ -45,6 +47,10 @@ class RunAccess : private SensorSources {
     /// All contact points of the tick that begins at tick(), as long as no order takes effect at it
     /// (physics/probe.h). Valid until the world is changed.
     std::span<const ContactReport> contacts() { return step_probe().contacts(); }
+    /// From now on cameras see these visuals, with so many threads; without it a camera cannot be read.
+    void set_visuals(render::VisualsOf visuals, unsigned threads);
+    /// What cameras see at tick(). Valid until the world is changed.
+    Result<const CameraScene*> camera_scene() override;
     /// What rays meet at tick(). Valid until the world is changed.
     const RayScene& shapes() { return ray_scene(); }
     /// Another number whenever the states are others than before.
@@ -54,7 +60,7 @@ class RunAccess : private SensorSources {
 
   protected:
     /// States are others than before.
-    void changed() { rays_are_new_ = probe_is_new_ = false, ++version_; }
+    void changed() { rays_are_new_ = probe_is_new_ = cameras_are_new_ = false, ++version_; }
 
   private:
     RayScene& ray_scene() override;
@@ -66,7 +72,10 @@ class RunAccess : private SensorSources {
     // made by the first question of a tick
     std::unique_ptr<RayScene> rays_;
     std::unique_ptr<StepProbe> probe_;
-    bool rays_are_new_ = false, probe_is_new_ = false;
+    std::unique_ptr<CameraScene> cameras_;
+    render::VisualsOf visuals_;
+    unsigned camera_threads_ = 1;
+    bool rays_are_new_ = false, probe_is_new_ = false, cameras_are_new_ = false;
     std::uint64_t version_ = 1;
 };
 

@@ -9,6 +9,8 @@
 #include <fstream>
 #include <optional>
 
+#include "mesh/jpeg_image.h"
+
 namespace roboss {
 namespace {
 
@@ -54,6 +56,54 @@ Result<ColourImage> read_png_colours(const std::string& path) {
     out.samples.resize(PNG_IMAGE_SIZE(image));
     const png_color black{0, 0, 0};
     if (png_image_finish_read(&image, &black, out.samples.data(), 0, nullptr) != 0) return out;
+    const std::string why = image.message;
+    png_image_free(&image);
+    return unreadable(why);
+}
+
+namespace {
+
+Result<> write_samples(const std::string& path, int columns, int rows, png_uint_32 format,
+                       const void* samples) {
+    png_image image;
+    std::memset(&image, 0, sizeof image);
+    image.version = PNG_IMAGE_VERSION;
+    image.width = static_cast<png_uint_32>(columns), image.height = static_cast<png_uint_32>(rows);
+    image.format = format;
+    if (png_image_write_to_file(&image, path.c_str(), 0, samples, 0, nullptr) != 0) return Ok{};
+    const std::string why = image.message;
+    png_image_free(&image);
+    return Error{path + " cannot be written: " + why, "Check the folder, its permissions and the free space.",
+                 "not-writable"};
+}
+
+}  // namespace
+
+Result<> write_png(const std::string& path, int columns, int rows, int channels,
+                   const std::vector<std::uint8_t>& samples) {
+    return write_samples(path, columns, rows, channels == 3 ? PNG_FORMAT_RGB : PNG_FORMAT_GRAY,
+                         samples.data());
+}
+
+Result<> write_png16(const std::string& path, int columns, int rows,
+                     const std::vector<std::uint16_t>& samples) {
+    return write_samples(path, columns, rows, PNG_FORMAT_LINEAR_Y, samples.data());
+}
+
+Result<ColourImage> decode_picture(const PictureSpec& picture) {
+    if (picture.kind == PictureKind::kJpeg) return decode_jpeg(picture.bytes);
+    if (picture.kind != PictureKind::kPng)
+        return Error{"is of a kind that cameras do not show", "Save it as PNG.", "picture-kind"};
+    png_image image;
+    std::memset(&image, 0, sizeof image);
+    image.version = PNG_IMAGE_VERSION;
+    if (png_image_begin_read_from_memory(&image, picture.bytes.data(), picture.bytes.size()) == 0)
+        return unreadable(image.message);
+    image.format = PNG_FORMAT_RGB;
+    ColourImage out{image.width, image.height, {}};
+    out.samples.resize(PNG_IMAGE_SIZE(image));
+    const png_color white{255, 255, 255};
+    if (png_image_finish_read(&image, &white, out.samples.data(), 0, nullptr) != 0) return out;
     const std::string why = image.message;
     png_image_free(&image);
     return unreadable(why);

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/result.h"
+#include "world/world.h"
 
 namespace roboss {
 
@@ -26,5 +27,16 @@ struct ColourImage {
 /// The colours of a picture; samples of 8 bits as they stand in the file, transparent ones before black.
 /// Errors as above.
 Result<ColourImage> read_png_colours(const std::string& path);
+
+/// Writes 8 bits a channel: 1 channel is grey, 3 are red, green and blue. Errors: it cannot be written.
+Result<> write_png(const std::string& path, int columns, int rows, int channels,
+                   const std::vector<std::uint8_t>& samples);
+/// Writes 16 bits of grey, as they are.
+Result<> write_png16(const std::string& path, int columns, int rows,
+                     const std::vector<std::uint16_t>& samples);
+
+/// The colours of a picture of a visual. Errors: it is cut off or damaged, or of a kind that is not decoded
+/// (WebP).
+Result<ColourImage> decode_picture(const PictureSpec& picture);
 
 }  // namespace roboss

@@ -133,6 +133,9 @@ class SceneMaker {
         shape->finish = shapes_.finish_of(visual.finish);
         add_shine(visual, shape->finish);
         shape->casts = visual.cast_shadows;
+        shape->label = visual.label;
+        shape->labels_model = visual.labels_model;
+        shape->temperature = visual.temperature;
         shapes.push_back(std::move(*shape));
     }
 

@@ -37,6 +37,9 @@ struct SceneShape {
     bool casts = true;   // shadows
     bool still = false;  // of a collision shape: it takes no part in the surface motion of its link
     SceneFinish finish;
+    int label = 0;                      // VisualSpec::label
+    bool labels_model = false;          // VisualSpec::labels_model
+    std::optional<double> temperature;  // K
 };
 
 struct SceneMesh {

@@ -53,6 +53,9 @@ std::optional<CollisionSpec> convert_collision(const Element& collision, const P
 /// A visual; of a mesh, one for each of its materials.
 std::vector<VisualSpec> convert_visual(const Element& visual, const Pose& X_LV, const Import& import);
 
+/// The label of a Label plugin of Gazebo; 0: it has none that counts (reported).
+int read_label(const Element& plugin, const Import& import);
+
 /// A <sensor> or <roboss:sensor>; `scope` is the prefix of the names in a nested model ("inner::" or "").
 SensorSpec convert_sensor(const Element& sensor, const Pose& X_LS, const std::string& scope,
                           const Import& import);

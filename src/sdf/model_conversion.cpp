@@ -56,6 +56,21 @@ class ModelConverter {
         const std::string canonical = scope.prefix + scope.model.CanonicalLinkAndRelativeName().second;
         for (PluginSensor& sensor : sensors)
             attach_plugin_sensor(std::move(sensor), canonical, scope.X_MS, import_, spec_);
+        if (source) label_visuals(source, scope.prefix);
+    }
+
+    /// A Label plugin of a model labels the visuals that have no label of their own; a nested model's comes
+    /// before that of the model around it.
+    void label_visuals(const Element& model, const std::string& prefix) {
+        for (const auto node : model.node.children("plugin")) {
+            const Element plugin{model.source, node};
+            if (!is_named(plugin_name(plugin), "Label", "label-system")) continue;
+            const int label = read_label(plugin, import_);
+            for (LinkSpec& link : spec_.links)
+                for (VisualSpec& visual : link.visuals)
+                    if (visual.label == 0 && link.name.starts_with(prefix))
+                        visual.label = label, visual.labels_model = label != 0;
+        }
     }
 
     /// Links of nested static models do not move: with no others the model is static, else they are welded to

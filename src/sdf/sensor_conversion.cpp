@@ -2,6 +2,7 @@
 #include <cstring>
 
 #include "sdf/parameter_reader.h"
+#include "sdf/plugin_conversion.h"
 
 namespace roboss::sdf_import {
 namespace {
@@ -44,6 +45,30 @@ void complete(EnvironmentalSpec& spec, const Element& sensor, const std::string&
           "GLOBAL");
     if (const std::size_t slash = type.find('/'); spec.variable.empty() && slash != std::string::npos)
         spec.variable = type.substr(slash + 1);
+}
+
+/// Formats of pixels that are not kept, and what stands beside the block: the ThermalSensor plugin.
+void complete_camera(SensorParameters& parameters, const Element& sensor, const Import& import) {
+    std::string* format = nullptr;
+    if (auto* camera = std::get_if<ColorCameraSpec>(&parameters)) format = &camera->format;
+    if (auto* camera = std::get_if<RgbdCameraSpec>(&parameters)) format = &camera->format;
+    if (format != nullptr && !is_one_of("R8G8B8|RGB_INT8|B8G8R8|BGR_INT8|L8|L_INT8|RGB_INT32|", *format) &&
+        !format->empty()) {
+        import.diagnostics().warning(
+            sensor.child("camera").child("image").where(), "sensor",
+            "images of <format> '" + *format + "' are not made; it is taken as R8G8B8",
+            "Use R8G8B8, B8G8R8 or L8.");
+        *format = "R8G8B8";
+    }
+    auto* thermal = std::get_if<ThermalCameraSpec>(&parameters);
+    if (thermal == nullptr) return;
+    for (const auto node : sensor.node.children("plugin")) {
+        const Element plugin{sensor.source, node};
+        if (!is_named(plugin_name(plugin), "ThermalSensor", "thermal-sensor-system")) continue;
+        thermal->min = import.reader.number(plugin, "min_temp", thermal->min);
+        thermal->max = import.reader.number(plugin, "max_temp", thermal->max);
+        thermal->resolution = import.reader.number(plugin, "resolution", thermal->resolution);
+    }
 }
 
 /// "a or b": the types of <roboss:sensor>.
@@ -92,6 +117,7 @@ SensorParameters read_parameters(const Element& sensor, const SensorSpec& spec, 
     const ParameterReader reader{block, scope, import};
     visit_parameters(parameters, reader);
     report_ignored(block, kind.ignored, kind.phrase, import);
+    complete_camera(parameters, sensor, import);
     if (auto* environmental = std::get_if<EnvironmentalSpec>(&parameters))
         complete(*environmental, sensor, spec.sdf_type, import);
     return parameters;

@@ -136,14 +136,14 @@ TEST(Sensors, AnOdometerOfAJointThatIsNotThereIsAnError) {
 
 TEST(Sensors, OthersAreKeptAndReportedOnceAKind) {
     const Loaded loaded = with_sensor(
-        "<sensor name='c1' type='camera'><camera><image><width>oops</width></image></camera></sensor>"
-        "<sensor name='c2' type='camera'/><sensor name='i' type='wireless_receiver'/>"
+        "<sensor name='c1' type='multicamera'><camera><image><width>oops</width></image></camera></sensor>"
+        "<sensor name='c2' type='multicamera'/><sensor name='i' type='wireless_receiver'/>"
         "<sensor name='n' type='wireless_transmitter'/>");
     ASSERT_TRUE(loaded.world);
     EXPECT_FALSE(loaded.diagnostics.has_errors()) << loaded.text();
     EXPECT_EQ(loaded.diagnostics.items().size(), 3u) << loaded.text();
     EXPECT_FALSE(first(loaded).measures());
-    EXPECT_EQ(first(loaded).sdf_type, "camera");
+    EXPECT_EQ(first(loaded).sdf_type, "multicamera");
 }
 
 TEST(Sensors, ALogicalCameraHasItsFrustumAndTheSceneryOfTheWorld) {

@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "sdf/conversion.h"
+#include "sdf/plugin_conversion.h"
 
 namespace roboss::sdf_import {
 namespace {
@@ -94,7 +95,30 @@ std::vector<VisualSpec> parts_of(const VisualSpec& visual, const Element& mesh, 
     return parts;
 }
 
+/// What Gazebo's plugins Label and Thermal say of a visual. A picture of heat counts as its middle.
+void read_marks(const Element& visual, const Import& import, VisualSpec& spec) {
+    for (const auto node : visual.node.children("plugin")) {
+        const Element plugin{visual.source, node};
+        const PluginName name = plugin_name(plugin);
+        if (is_named(name, "Label", "label-system")) spec.label = read_label(plugin, import);
+        if (!is_named(name, "Thermal", "thermal-system")) continue;
+        if (plugin.child("temperature")) spec.temperature = import.reader.number(plugin, "temperature", 0);
+        if (plugin.child("heat_signature"))
+            spec.temperature = 0.5 * (import.reader.number(plugin, "min_temp", 273.15) +
+                                      import.reader.number(plugin, "max_temp", 310));
+    }
+}
+
 }  // namespace
+
+int read_label(const Element& plugin, const Import& import) {
+    const int label = import.reader.integer(plugin, "label", 0);
+    if (label >= 0 && label <= 255) return label;
+    import.diagnostics().warning(plugin.where(), "label",
+                                 "a <label> of " + std::to_string(label) + " has no effect",
+                                 "Write a number from 1 to 255.");
+    return 0;
+}
 
 std::vector<VisualSpec> convert_visual(const Element& visual, const Pose& X_LV, const Import& import) {
     VisualSpec spec;
@@ -111,6 +135,7 @@ std::vector<VisualSpec> convert_visual(const Element& visual, const Pose& X_LV, 
     read_colour(material, spec);
     read_glow(material, spec);
     spec.cast_shadows = import.reader.boolean(visual, "cast_shadows", true);
+    read_marks(visual, import, spec);
     spec.alpha *= 1.0 - import.reader.number(visual, "transparency", 0.0);
     if (spec.geometry.kind != GeometryKind::kMesh) return {spec};
     return parts_of(spec, geometry.child("mesh"), static_cast<bool>(material), import);

@@ -59,6 +59,7 @@ struct SensorKind {
     const char* block = "";  ///< the child element that holds the parameters, or "first|second"; "": none
     bool block_required = false;                ///< without it the sensor measures nothing
     bool needs_all_states = false;              ///< a reading depends on the states of other robots
+    bool is_image = false;                      ///< readings are large: measured when asked, never held
     std::span<const IgnoredElement> ignored{};  ///< elements that have no effect
     PublishingPlugin plugin{};                  ///< of Gazebo, that measures this
 };

@@ -14,14 +14,17 @@
 #include "sensor_kinds/air_pressure.h"
 #include "sensor_kinds/air_speed.h"
 #include "sensor_kinds/altimeter.h"
+#include "sensor_kinds/camera.h"
 #include "sensor_kinds/compass.h"
 #include "sensor_kinds/contact.h"
+#include "sensor_kinds/depth_camera.h"
 #include "sensor_kinds/environmental.h"
 #include "sensor_kinds/force_torque.h"
 #include "sensor_kinds/gps.h"
 #include "sensor_kinds/imu.h"
 #include "sensor_kinds/joint_states.h"
 #include "sensor_kinds/kind.h"
+#include "sensor_kinds/label_cameras.h"
 #include "sensor_kinds/laser.h"
 #include "sensor_kinds/link_poses.h"
 #include "sensor_kinds/logical_camera.h"
@@ -31,6 +34,7 @@
 #include "sensor_kinds/odometry.h"
 #include "sensor_kinds/onboard_values.h"
 #include "sensor_kinds/sonar.h"
+#include "sensor_kinds/thermal_camera.h"
 
 namespace roboss {
 
@@ -61,7 +65,8 @@ using SensorKinds =
                    ContactSpec, ForceTorqueSpec, OdometrySpec, JointStatesSpec, LinkPosesSpec,
                    WheelOdometrySpec, BatterySensorSpec, KineticEnergySpec, TrajectoryProgressSpec,
                    LogicalCameraSpec, MicrophoneSpec, AirPressureSpec, AirSpeedSpec, EnvironmentalSpec,
-                   TrackOdometrySpec, SonarSpec>;
+                   TrackOdometrySpec, SonarSpec, ColorCameraSpec, DepthCameraSpec, RgbdCameraSpec,
+                   SegmentationCameraSpec, BoxCameraSpec, ThermalCameraSpec>;
 
 /// Parameters of any kind.
 using SensorParameters = SensorKinds::Parameters;

@@ -26,7 +26,7 @@ struct Frustum {
 };
 
 /// Adds models to a reading.
-struct Image {
+struct FrustumImage {
     Transform X_SW;
     Frustum frustum;
     LogicalCameraReading reading{};
@@ -55,7 +55,7 @@ bool is_model(const Robot& robot, const RobotType& type) {
 Result<LogicalCameraReading> read(const LogicalCameraSpec& spec, const SensorQuery& query) {
     const SensorInfo& info = query.info();
     const Transform X_WS = link_pose(query.type(), query.state, info.link) * to_transform(info.spec.X_LS);
-    Image image{inverse(X_WS), Frustum(spec)};
+    FrustumImage image{inverse(X_WS), Frustum(spec)};
     for (std::size_t i = 0; i < query.model.robots.size(); ++i) {
         const RobotId id(i);
         const Robot& robot = query.model.robots[i];

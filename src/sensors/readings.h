@@ -84,5 +84,11 @@ Result<AirSpeedReading> read(const AirSpeedSpec& tube, const SensorQuery& query)
 Result<EnvironmentalReading> read(const EnvironmentalSpec& sensor, const SensorQuery& query);
 Result<TrackOdometryReading> read(const TrackOdometrySpec& odometry, const SensorQuery& query);
 Result<SonarReading> read(const SonarSpec& sonar, const SensorQuery& query);
+Result<CameraReading> read(const ColorCameraSpec& camera, const SensorQuery& query);
+Result<DepthCameraReading> read(const DepthCameraSpec& camera, const SensorQuery& query);
+Result<RgbdCameraReading> read(const RgbdCameraSpec& camera, const SensorQuery& query);
+Result<SegmentationCameraReading> read(const SegmentationCameraSpec& camera, const SensorQuery& query);
+Result<BoxCameraReading> read(const BoxCameraSpec& camera, const SensorQuery& query);
+Result<ThermalCameraReading> read(const ThermalCameraSpec& camera, const SensorQuery& query);
 
 }  // namespace roboss

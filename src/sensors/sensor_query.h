@@ -3,11 +3,13 @@
 
 #include <cstdint>
 
+#include "core/result.h"
 #include "model/model.h"
 #include "model/robot_state.h"
 
 namespace roboss {
 
+class CameraScene;
 class RayScene;
 class StepProbe;
 
@@ -22,6 +24,9 @@ class SensorSources {
     virtual StepProbe& step_probe() = 0;
     /// The state of any robot at the tick of the query.
     virtual const RobotState& state_of(RobotId robot) = 0;
+    /// The visuals of all robots at the tick of the query. An Error, "no-look": whoever asks has only the
+    /// Model, which says nothing of visuals.
+    virtual Result<const CameraScene*> camera_scene();
 };
 
 /// Sensor number `sensor` (of RobotType::sensors) of a robot in `state` at `tick`, in a run with this seed.

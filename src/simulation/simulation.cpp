@@ -71,6 +71,7 @@ Simulation::Simulation(std::shared_ptr<const Model> model, const SimulationOptio
     for (NamedProgram& program : programs) {
         hosts_.push_back(std::make_unique<ProgramHost>(model_, Address{Role::kClient, ++instance_},
                                                        program.name, std::move(program.program)));
+        hosts_.back()->client().set_visuals(options.visuals);
         if (from == nullptr) continue;
         const auto memory = from->memory.find(program.name);
         if (memory != from->memory.end()) hosts_.back()->restore(memory->second);

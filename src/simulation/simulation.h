@@ -35,6 +35,7 @@ struct SimulationOptions {
     unsigned threads = 1;            // that step islands, shared by the Simulators of this process
     std::size_t lanes = kMostLanes;  // most robots of a type stepped at once
     std::string world_file;          // for saved runs
+    render::VisualsOf visuals;       // what cameras of the programs see; none: they cannot be read
     /// Called in every round: advances a viewer, say. No result may depend on it.
     std::function<void(Bus&)> observer;
     ControllerOptions controller;  // its `simulators` and `clients` are set from here

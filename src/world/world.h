@@ -133,15 +133,18 @@ struct FinishSpec {
 /// A shape that is only drawn (SDF `<visual>`).
 /// A mesh of several materials is one visual for each.
 struct VisualSpec {
-    std::string name;                ///< as in the file
-    GeometrySpec geometry;           ///< shape and dimensions
-    Pose X_LV;                       ///< visual in link
-    Vec3 rgb{0.7, 0.7, 0.7};         ///< colour, 0..1 each
-    double alpha = 1.0;              ///< opacity: 0 is invisible, 1 opaque
-    FinishSpec finish{};             ///< pictures and gloss
-    std::optional<Vec3> specular{},  ///< colour of highlights, 0..1 each; none: the viewer's own
-        emissive{};                  ///< light that it gives off, 0..1 each; none: nothing
-    bool cast_shadows = true;        ///< SDF `<cast_shadows>`
+    std::string name;                     ///< as in the file
+    GeometrySpec geometry;                ///< shape and dimensions
+    Pose X_LV;                            ///< visual in link
+    Vec3 rgb{0.7, 0.7, 0.7};              ///< colour, 0..1 each
+    double alpha = 1.0;                   ///< opacity: 0 is invisible, 1 opaque
+    FinishSpec finish{};                  ///< pictures and gloss
+    std::optional<Vec3> specular{},       ///< colour of highlights, 0..1 each; none: the viewer's own
+        emissive{};                       ///< light that it gives off, 0..1 each; none: nothing
+    bool cast_shadows = true;             ///< SDF `<cast_shadows>`
+    int label = 0;                        ///< 1..255, of Gazebo's Label plugin; 0: none
+    bool labels_model = false;            ///< the label is that of the model: its visuals are one thing
+    std::optional<double> temperature{};  ///< K, of Gazebo's Thermal plugin; none: that of the air
 };
 
 /// Resistance of the air (SDF `<enable_wind>`, `<roboss:drag>`).

@@ -20,6 +20,7 @@
 #include "core/hash.h"
 #include "scene/scene_file.h"
 #include "sdf/load_world.h"
+#include "visuals/visual_source.h"
 
 namespace roboss {
 namespace {
@@ -80,6 +81,7 @@ bool Run::prepare() {
     print(diagnostics, o_.world);
     if (!model_ || refused()) return false;
     if (Result<> found = check_snapshot(o_.snapshot, *model_); !found) return print(found.error()), false;
+    if (Result<> found = check_sense(o_.sense, *model_); !found) return print(found.error()), false;
     world_model_ = model_;
     if (is_shown()) visuals_.begin(*model_, std::move(*world));
     Result<std::unique_ptr<RunJournal>> journal = RunJournal::open(o_, *model_);
@@ -167,7 +169,7 @@ bool Run::open_gateway() {
 }
 
 bool Run::list() {
-    if (!o_.snapshot.file.empty() || listing_) return true;
+    if (takes_picture() || listing_) return true;
     const auto unlisted = [this](const Error& error) {
         if (error.code == "run-exists") return print(error), false;
         notices_.push_back(error.text());
@@ -204,12 +206,26 @@ SimulationOptions Run::simulation_options(const SavedRun* from) {
     options.controller.window = o_.window == "auto" ? 0 : static_cast<Tick>(std::stod(o_.window));
     options.controller.forecast.merge_all = o_.merge_islands;
     options.controller.log_ticks = journal_->log_ticks();
+    options.visuals = [this](const Model& model) { return visual_world(model); };
     if (gateway_) options.observer = [gateway = gateway_.get()](Bus& bus) { gateway->advance(bus); };
     if (!is_shown()) return options;
     options.controller.scene = [this, seed = options.controller.seed](const Model& model) {
         return encode(scene_file(make_scene(model, visuals_.of(model)), model, seed));
     };
     return options;
+}
+
+/// What cameras see. A run that is not shown has read no visuals: it reads the world file again; robots that
+/// were added since show their collision shapes.
+std::shared_ptr<const render::VisualWorld> Run::visual_world(const Model& model) {
+    if (visual_world_ && visual_world_->model_hash == model.hash) return visual_world_;
+    ModelVisuals::Worlds worlds = visuals_.worlds_of(model);
+    if (!is_shown() && o_.replay.empty()) {
+        Diagnostics diagnostics;
+        if (std::optional<World> world = load_world(o_.world, {o_.paths, o_.profile, true}, diagnostics))
+            worlds = {std::make_shared<const World>(*std::move(world))};
+    }
+    return visual_world_ = visuals_of(std::move(worlds))(model);
 }
 
 Result<> Run::restart(std::shared_ptr<const Model> model, const SavedRun& from, bool back) {

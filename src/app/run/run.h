@@ -63,7 +63,9 @@ class Run {
     /// Lists the run for `roboss control`; if that fails, a notice says so. False: its name is taken.
     bool list();
     /// Here, or by `roboss view` elsewhere.
-    bool is_shown() const { return !o_.viewer.headless || o_.is_controller; }
+    bool is_shown() const { return !o_.viewer.headless || o_.is_controller || o_.sense.wanted(); }
+    std::shared_ptr<const render::VisualWorld> visual_world(const Model& model);
+    bool takes_picture() const { return !o_.snapshot.file.empty() || o_.sense.wanted(); }
     bool writes_to_standard_output() const;
     Summary summary(double wall_s) const;
     int finish(bool fine, double wall_s);
@@ -132,10 +134,11 @@ class Run {
     Progress progress_;
     std::shared_ptr<const Model> model_;
     std::shared_ptr<const Model>
-        world_model_;                   // of the world file, to which a reset returns; null: of a replay
-    ModelVisuals visuals_;              // for the viewer; none: of a replay
-    RemovedRobots removed_;             // that may be brought back
-    std::unique_ptr<Gateway> gateway_;  // none: headless
+        world_model_;        // of the world file, to which a reset returns; null: of a replay
+    ModelVisuals visuals_;   // for the viewer; none: of a replay
+    RemovedRobots removed_;  // that may be brought back
+    std::shared_ptr<const render::VisualWorld> visual_world_;  // of the first camera that was read
+    std::unique_ptr<Gateway> gateway_;                         // none: headless
     std::unique_ptr<ControlSocket> socket_;
     std::optional<RunListing> listing_;
     /// To which `reset save` returns.

@@ -5,6 +5,7 @@
 #include <thread>
 
 #include "app/processes/interrupt.h"
+#include "app/processes/threads.h"
 #include "app/run/run.h"
 #include "app/worlds/orders_file.h"
 #include "core/hash.h"
@@ -68,7 +69,7 @@ bool Run::rest() {
 
 bool Run::stays() {
     constexpr auto kUnseen = std::chrono::seconds(10);  // a page that is loaded again comes back within
-    if (pace_.quit || interrupted() || !o_.snapshot.file.empty()) return false;
+    if (pace_.quit || interrupted() || takes_picture()) return false;
     const bool seen = gateway_ && gateway_->load().pages > 0;
     if (seen || !over_) last_page_ = Clock::now();  // a run that was continued ends with its last page, too
     const bool replays = journal_->replay() && gateway_ && !o_.no_stay;  // who scrubs is not sent away
@@ -86,7 +87,15 @@ bool Run::stays() {
 
 /// The run is paused meanwhile.
 bool Run::take_picture() {
-    if (o_.snapshot.file.empty() || interrupted()) return true;
+    if (!takes_picture() || interrupted()) return true;
+    if (o_.sense.wanted()) {
+        const render::VisualsOf visuals = [this](const Model& model) { return visual_world(model); };
+        const auto threads = static_cast<unsigned>(threads_of_each(o_.threads, 1));
+        const Result<> read = take_reading(o_.sense, {*model_, simulation_->states(), simulation_->tick(),
+                                                      simulation_->seed(), threads, visuals});
+        if (!read) print(read.error());
+        return read.ok();
+    }
     const Result<> taken =
         take_snapshot(o_.snapshot, gateway_->url(), [this] { return rest() && !interrupted(); });
     if (!taken) print(taken.error());
@@ -124,7 +133,7 @@ bool Run::drive() {
                        {contacts_ ? every(o_.contacts_every_s) : 0.0, dt, start_},
                        {o_.hash_every_s, dt, start_},
                        {o_.paths_picture.empty() ? 0.0 : kPictureEvery_s, dt, start_}};
-    const bool watched = gateway_ != nullptr && o_.snapshot.file.empty();
+    const bool watched = gateway_ != nullptr && !takes_picture();
     const std::string speed = !o_.speed.empty() ? o_.speed : watched ? "world" : "max";
     pace_.speed = speed == "max" ? 0.0 : speed == "world" ? world_speed_ : std::stod(speed);
     pace_.paused = o_.paused;

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "app/run/sense.h"
 #include "app/viewer/snapshot.h"
 #include "app/viewer/viewer.h"
 #include "dds/dds_options.h"
@@ -68,6 +69,7 @@ struct RunOptions {
     std::string paths_picture;  // SVG of where the robots went
     ViewerOptions viewer;
     SnapshotOptions snapshot;
+    SenseOptions sense;
     bool quiet = false;
 };
 

@@ -72,14 +72,14 @@ std::size_t followed_at(const std::string& camera) {
 std::string fault_of_camera(const std::string& camera) {
     for (const char* named : {"top", "front", "side", "isometric", "file"})
         if (camera == named) return {};
-    if (followed_at(camera) != std::string::npos) return {};
+    if (followed_at(camera) != std::string::npos || camera.find('/') != std::string::npos) return {};
     std::vector<double> numbers;
     for (const std::string& word : words_of(camera))
         if (const std::optional<double> number = read_number(word)) numbers.push_back(*number);
     if (numbers.size() != 6 || words_of(camera).size() != 6)
         return "'" + camera +
                "' is no camera: give x,y,z,azimuth,elevation,distance, or top, front, side, isometric, file, "
-               "follow:ROBOT or chase:ROBOT";
+               "follow:ROBOT, chase:ROBOT or ROBOT/SENSOR";
     return numbers[5] > 0 ? std::string() : "the distance of '" + camera + "' is not above 0";
 }
 
@@ -93,6 +93,19 @@ CLI::Validator list_of(const std::vector<std::string>& known) {
             return {};
         },
         "LIST");
+}
+
+/// Whether the picture is that of a robot's camera: then `sense` takes it.
+bool look_through(SnapshotOptions& snapshot, SenseOptions& sense) {
+    for (const auto& [key, value] : snapshot.parameters) {
+        const std::size_t slash = value.rfind('/');
+        if (key != "camera" || slash == std::string::npos || followed_at(value) != std::string::npos)
+            continue;
+        sense = {value.substr(0, slash), value.substr(slash + 1), snapshot.file};
+        snapshot = {};
+        return true;
+    }
+    return false;
 }
 
 Result<> write_file(const std::string& file, const std::string& bytes) {
@@ -114,9 +127,11 @@ void add_snapshot_options(CLI::App& command, SnapshotOptions& o) {
                 [&o, key](const std::string& value) { o.parameters.emplace_back(key, value); }, what)
             ->group(group);
     };
-    parameter("camera",
-              "x,y,z,azimuth,elevation,distance (point to look at, m; degrees; m), top, front, side, "
-              "isometric, file (the file's camera), follow:ROBOT or chase:ROBOT")
+    parameter(
+        "camera",
+        "x,y,z,azimuth,elevation,distance (point to look at, m; degrees; m), top, front, side, "
+        "isometric, file (the file's camera), follow:ROBOT, chase:ROBOT, or ROBOT/SENSOR (a camera of a "
+        "robot, without a browser)")
         ->check(CLI::Validator([](std::string& text) { return fault_of_camera(text); }, "CAMERA"));
     parameter("select", "name of the robot to select");
     parameter("colour", "colour robots by model, simulator, island or speed")
@@ -203,7 +218,7 @@ void add_snapshot_command(CLI::App& app, int& exit_code) {
     command->footer(kSnapshotFooter);
     command->callback([options, &exit_code] {
         if (!options->until_s && !options->duration_s) options->until_s = 0.0;
-        options->viewer.headless = false;
+        options->viewer.headless = look_through(options->snapshot, options->sense);
         options->quiet = true;
         exit_code = Run(*options).go();
     });

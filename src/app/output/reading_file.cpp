@@ -1,0 +1,198 @@
+// See reading_file.h.
+#include "app/output/reading_file.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <cstring>
+#include <fstream>
+#include <type_traits>
+
+#include "mesh/image_file.h"
+#include "render/lens.h"
+
+namespace roboss {
+namespace {
+
+Result<> write_bytes(const std::string& file, const std::string& bytes) {
+    std::ofstream out(file, std::ios::binary);
+    if (out << bytes && out.flush()) return Ok{};
+    return Error{file + " cannot be written", "check the folder, its permissions and the free space",
+                 "not-writable"};
+}
+
+Error does_not_fit(const std::string& file, const SensorSpec& sensor, const std::string& remedy) {
+    return {
+        "a reading of sensor '" + sensor.name + "', " + sensor.kind().phrase + ", is not written as " + file,
+        remedy, "reading-format"};
+}
+
+/// Whole numbers of 16 bits: value / unit, 0 where it is not finite.
+std::vector<std::uint16_t> counted(const Image<float>& image, double unit) {
+    std::vector<std::uint16_t> counts;
+    for (const float value : image.samples) {
+        const double count = std::floor(static_cast<double>(value) / unit + 0.5);
+        counts.push_back(std::isfinite(count) && count > 0
+                             ? static_cast<std::uint16_t>(std::fmin(count, 65535.0))
+                             : std::uint16_t{0});
+    }
+    return counts;
+}
+
+/// Writes the first image of a reading as PNG.
+struct PngWriter {
+    const std::string& file;
+    Result<>& done;
+    bool& found;
+
+    void operator()(const ReadingField&, const Image<std::uint8_t>& image) const {
+        if (std::exchange(found, true)) return;
+        done = write_png(file, image.columns, image.rows, image.channels, image.samples);
+    }
+    void operator()(const ReadingField& field, const Image<float>& image) const {
+        if (std::exchange(found, true)) return;
+        constexpr double kMillimetre = 0.001, kHundredthOfKelvin = 0.01;
+        const double unit = std::strcmp(field.unit, "K") == 0 ? kHundredthOfKelvin : kMillimetre;
+        done = write_png16(file, image.columns, image.rows, counted(image, unit));
+    }
+    template <class Value>
+    void operator()(const ReadingField&, const Value&) const {}
+};
+
+/// The bytes of an array in NumPy's format 1.0.
+template <class T>
+std::string npy(const char* type, const std::vector<int>& shape, const std::vector<T>& values) {
+    std::string sizes;
+    for (const int size : shape) sizes += fmt::format("{}, ", size);
+    std::string header =
+        fmt::format("{{'descr': '{}', 'fortran_order': False, 'shape': ({}), }}", type, sizes);
+    constexpr std::size_t kPrefix = 10, kAligned = 64;
+    header.append(kAligned - (kPrefix + header.size() + 1) % kAligned, ' ');
+    header += '\n';
+    std::string bytes("\x93NUMPY\x01\x00", 8);
+    bytes += static_cast<char>(header.size() & 0xFF);
+    bytes += static_cast<char>(header.size() >> 8);
+    bytes += header;
+    const std::size_t start = bytes.size();
+    bytes.resize(start + values.size() * sizeof(T));
+    if (!values.empty()) std::memcpy(&bytes[start], values.data(), values.size() * sizeof(T));
+    return bytes;
+}
+
+/// Keeps the first image, or else the first list of numbers.
+struct NpyWriter {
+    std::string& bytes;
+
+    template <class T>
+    void operator()(const ReadingField&, const Image<T>& image) const {
+        if (!bytes.empty()) return;
+        std::vector<int> shape{image.rows, image.columns};
+        if (image.channels > 1) shape.push_back(image.channels);
+        bytes = npy(std::is_same_v<T, float> ? "<f4" : sizeof(T) == 2 ? "<u2" : "|u1", shape, image.samples);
+    }
+    void operator()(const ReadingField&, const std::vector<double>& values) const {
+        if (bytes.empty()) bytes = npy("<f8", {static_cast<int>(values.size())}, values);
+    }
+    template <class Value>
+    void operator()(const ReadingField&, const Value&) const {}
+};
+
+/// A line of each number: name,index,value,unit.
+struct CsvWriter {
+    std::string& text;
+    bool& is_image;
+
+    void line(const ReadingField& field, std::size_t index, double value) const {
+        text += fmt::format("{},{},{},{}\n", field.name, index, value, field.unit);
+    }
+    void operator()(const ReadingField& field, const Vec3& v) const {
+        for (std::size_t i = 0; i < 3; ++i) line(field, i, v[i]);
+    }
+    void operator()(const ReadingField& field, const Quat& q) const {
+        line(field, 0, q.w), line(field, 1, q.x), line(field, 2, q.y), line(field, 3, q.z);
+    }
+    void operator()(const ReadingField& field, const std::vector<double>& values) const {
+        for (std::size_t i = 0; i < values.size(); ++i) line(field, i, values[i]);
+    }
+    void operator()(const ReadingField& field, const std::vector<std::string>& texts) const {
+        for (std::size_t i = 0; i < texts.size(); ++i)
+            text += fmt::format("{},{},\"{}\",\n", field.name, i, texts[i]);
+    }
+    template <class T>
+    void operator()(const ReadingField&, const Image<T>& image) const {
+        is_image |= !image.empty();
+    }
+    template <class Value>
+    requires std::is_arithmetic_v<Value>
+    void operator()(const ReadingField& field, Value value) const {
+        line(field, 0, static_cast<double>(value));
+    }
+};
+
+std::string pcd(const Image<float>& depth, const Image<std::uint8_t>* color, const CameraOptics& optics) {
+    const render::Lens lens(optics);
+    std::string points;
+    std::size_t count = 0;
+    const auto add = [&](const void* value) { points.append(static_cast<const char*>(value), 4); };
+    for (int v = 0; v < depth.rows; ++v)
+        for (int u = 0; u < depth.columns; ++u) {
+            const auto pixel = static_cast<std::size_t>(v) * static_cast<std::size_t>(depth.columns) +
+                               static_cast<std::size_t>(u);
+            const auto direction = lens.direction(u + 0.5, v + 0.5);
+            if (!direction || !std::isfinite(depth.samples[pixel])) continue;
+            const Vec3 p = *direction * (static_cast<double>(depth.samples[pixel]) / direction->x);
+            for (std::size_t k = 0; k < 3; ++k) {
+                const auto number = static_cast<float>(p[k]);
+                add(&number);
+            }
+            ++count;
+            if (color == nullptr) continue;
+            const std::uint8_t* rgb = &color->samples[3 * pixel];
+            const std::uint32_t packed =
+                static_cast<std::uint32_t>(rgb[0]) << 16 | static_cast<std::uint32_t>(rgb[1]) << 8 | rgb[2];
+            add(&packed);
+        }
+    const bool painted = color != nullptr;
+    return fmt::format(
+               "# .PCD v0.7 - points in the camera's frame, m\nVERSION 0.7\nFIELDS x y z{}\nSIZE 4 4 4{}\n"
+               "TYPE F F F{}\nCOUNT 1 1 1{}\nWIDTH {}\nHEIGHT 1\nVIEWPOINT 0 0 0 1 0 0 0\nPOINTS {}\nDATA "
+               "binary\n",
+               painted ? " rgb" : "", painted ? " 4" : "", painted ? " U" : "", painted ? " 1" : "", count,
+               count) +
+           points;
+}
+
+}  // namespace
+
+Result<> write_reading(const std::string& file, const Sample& sample, const SensorSpec& sensor) {
+    if (file.ends_with(".png")) {
+        Result<> done = Ok{};
+        bool found = false;
+        visit_fields(sample, PngWriter{file, done, found});
+        return found ? done : does_not_fit(file, sensor, "give a file with the ending .csv or .npy");
+    }
+    if (file.ends_with(".npy")) {
+        std::string bytes;
+        visit_fields(sample, NpyWriter{bytes});
+        return !bytes.empty() ? write_bytes(file, bytes)
+                              : does_not_fit(file, sensor, "give a file with the ending .csv");
+    }
+    if (file.ends_with(".pcd")) {
+        if (const auto* depth = std::get_if<DepthCameraReading>(&sample))
+            return write_bytes(file, pcd(depth->depth, nullptr, sensor.as<DepthCameraSpec>()->optics));
+        const auto* both = std::get_if<RgbdCameraReading>(&sample);
+        if (both == nullptr) return does_not_fit(file, sensor, "only depth images are written as points");
+        const bool rgb = both->color.channels == 3;
+        return write_bytes(
+            file, pcd(both->depth, rgb ? &both->color : nullptr, sensor.as<RgbdCameraSpec>()->optics));
+    }
+    if (!file.ends_with(".csv"))
+        return does_not_fit(file, sensor, "give a file with the ending .png, .npy, .pcd or .csv");
+    std::string text = "name,index,value,unit\n";
+    bool is_image = false;
+    visit_fields(sample, CsvWriter{text, is_image});
+    return is_image ? does_not_fit(file, sensor, "give a file with the ending .png or .npy")
+                    : write_bytes(file, text);
+}
+
+}  // namespace roboss

@@ -1,0 +1,133 @@
+// See sense.h.
+#include "app/run/sense.h"
+
+#include <fmt/format.h>
+
+#include <memory>
+
+#include "app/commands/numbers.h"
+#include "app/output/reading_file.h"
+#include "app/run/run.h"
+#include "core/similar.h"
+#include "render/camera_scene.h"
+#include "sensors/readings.h"
+
+namespace roboss {
+namespace {
+
+const char* const kSenseFooter =
+    R"(Runs the world to the given time and reads one sensor there, with its noise. <update_rate> has no effect.
+
+The ending of the file says how it is written: .png (images: colours; depth in mm; labels; temperatures in 0.01 K), .npy
+(NumPy: images, ranges), .pcd (points of a depth camera), .csv (all numbers of other sensors).
+
+Examples:
+  roboss sense world.sdf --robot rover --sensor eye --at 2 -o eye.png
+  roboss sense world.sdf --robot rover --sensor depth -o cloud.pcd
+  roboss sense worlds/city.sdf --robot car_7 --sensor laser --at 5 -o laser.csv
+
+Exit codes: those of `roboss run`; 3 also if the sensor cannot measure or the file cannot be written.)";
+
+/// States of one tick, as sensors ask for them.
+class StatesOfTick final : public SensorSources {
+  public:
+    explicit StatesOfTick(const SensedRun& run) : run_(run) {
+        for (const RobotState& state : run.states) pointers_.push_back(&state);
+        // not owned: the Model outlives this
+        model_ = std::shared_ptr<const Model>(std::shared_ptr<const Model>(), &run.model);
+    }
+    RayScene& ray_scene() override {
+        if (!rays_) rays_ = std::make_unique<RayScene>(model_), rays_->update(pointers_);
+        return *rays_;
+    }
+    StepProbe& step_probe() override {
+        if (!probe_) probe_ = std::make_unique<StepProbe>(run_.model), probe_->step(run_.tick, pointers_);
+        return *probe_;
+    }
+    const RobotState& state_of(RobotId robot) override { return run_.states[robot.index()]; }
+    Result<const CameraScene*> camera_scene() override {
+        if (!cameras_) {
+            cameras_ = std::make_unique<CameraScene>(model_, run_.visuals(run_.model), run_.threads);
+            cameras_->update(pointers_);
+        }
+        return cameras_.get();
+    }
+    /// Pictures that cameras do not show.
+    std::vector<std::string> problems() const {
+        return cameras_ ? cameras_->world().problems : std::vector<std::string>();
+    }
+
+  private:
+    const SensedRun& run_;
+    std::vector<const RobotState*> pointers_;
+    std::shared_ptr<const Model> model_;
+    std::unique_ptr<RayScene> rays_;
+    std::unique_ptr<StepProbe> probe_;
+    std::unique_ptr<CameraScene> cameras_;
+};
+
+Result<std::pair<RobotId, std::size_t>> find_sensor(const SenseOptions& o, const Model& model) {
+    const std::optional<RobotId> robot = model.find_robot(o.robot);
+    if (!robot) {
+        std::vector<std::string> names;
+        for (const Robot& one : model.robots) names.push_back(one.name);
+        return Error{"the world has no robot '" + o.robot + "'",
+                     did_you_mean(o.robot, names, "see `roboss check` for their names"), "no-robot"};
+    }
+    std::vector<std::string> names;
+    const std::vector<SensorInfo>& sensors = model.type_of(*robot).sensors;
+    for (std::size_t s = 0; s < sensors.size(); ++s) {
+        names.push_back(sensors[s].spec.name);
+        if (names.back() == o.sensor) return std::pair(*robot, s);
+    }
+    return Error{"robot '" + o.robot + "' has no sensor '" + o.sensor + "'",
+                 did_you_mean(o.sensor, names, "see `roboss check` for its sensors"), "no-sensor"};
+}
+
+}  // namespace
+
+Result<> check_sense(const SenseOptions& options, const Model& model) {
+    if (!options.wanted()) return Ok{};
+    if (const auto found = find_sensor(options, model); !found) return found.error();
+    return Ok{};
+}
+
+Result<> take_reading(const SenseOptions& options, const SensedRun& run) {
+    const auto found = find_sensor(options, run.model);
+    if (!found) return found.error();
+    const RobotId robot = found.value().first;
+    StatesOfTick sources(run);
+    const Result<Sample> sample = measure(
+        {run.model, robot, found.value().second, run.states[robot.index()], run.tick, run.seed, sources});
+    if (!sample) return sample.error();
+    for (const std::string& problem : sources.problems())
+        fmt::print(stderr, "note: a picture is not shown: {}\n", problem);
+    const SensorSpec& spec = run.model.type_of(robot).sensors[found.value().second].spec;
+    const Result<> written = write_reading(options.file, sample.value(), spec);
+    if (written) fmt::print(stderr, "wrote {}\n", options.file);
+    return written;
+}
+
+void add_sense_command(CLI::App& app, int& exit_code) {
+    CLI::App* command = app.add_subcommand("sense", "write one reading of a sensor at a given time");
+    auto options = std::make_shared<RunOptions>();
+    add_run_options(*command, *options);
+    const std::string group = "Reading";
+    command->add_option("--robot", options->sense.robot, "name of the robot")->required()->group(group);
+    command->add_option("--sensor", options->sense.sensor, "name of its sensor")->required()->group(group);
+    command->add_option("-o,--output", options->sense.file, "PNG, NPY, PCD or CSV file")
+        ->required()
+        ->group(group);
+    command->add_option("--at", options->until_s, "world time of the reading, s (default: the start)")
+        ->check(non_negative_number())
+        ->group(group);
+    command->footer(kSenseFooter);
+    command->callback([options, &exit_code] {
+        if (!options->until_s && !options->duration_s) options->until_s = 0.0;
+        options->viewer.headless = true;
+        options->quiet = true;
+        exit_code = Run(*options).go();
+    });
+}
+
+}  // namespace roboss
