@@ -1,5 +1,4 @@
-// JPEG pictures as numbers: baseline and extended sequential (ITU-T T.81), by code of our own, so that the
-// colours have the same bits everywhere.
+// JPEG pictures as numbers. The only place that knows libjpeg-turbo.
 #pragma once
 
 #include <cstdint>
@@ -9,8 +8,9 @@
 
 namespace roboss {
 
-/// Colours of a picture with one (grey) or three components of 8 bits. Errors: it is damaged, progressive or
-/// of another kind, or larger than 8192 x 8192.
+/// Colours of a JPEG picture, baseline or progressive, grey or coloured. The same bits with every instruction
+/// set: its accurate inverse cosine transform is exact. Errors: it is damaged, of four inks (CMYK), or larger
+/// than 8192 x 8192.
 Result<ColourImage> decode_jpeg(std::span<const std::uint8_t> bytes);
 
 }  // namespace roboss

@@ -1,4 +1,5 @@
-# assimp reads STL, OBJ and COLLADA, libpng the pictures of heightmaps. Neither shows in a header.
+# assimp reads STL, OBJ and COLLADA, libpng and libjpeg-turbo pictures. None of them shows in a header.
 find_package(assimp REQUIRED)
 find_package(PNG REQUIRED)
-target_link_libraries(roboss_mesh PRIVATE assimp::assimp PNG::PNG)
+find_package(libjpeg-turbo CONFIG REQUIRED)
+target_link_libraries(roboss_mesh PRIVATE assimp::assimp PNG::PNG libjpeg-turbo::turbojpeg)
