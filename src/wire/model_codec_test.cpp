@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cstring>
+#include <map>
 #include <random>
 #include <type_traits>
 
@@ -14,6 +15,17 @@
 
 namespace roboss::test {
 namespace {
+
+/// Another word that may stand where this one does; where any may, the name of a joint.
+std::string other_than(const std::string& word) {
+    static const std::map<std::string, std::string> kOthers{
+        {"child", "parent"},      {"child_to_parent", "parent_to_child"},
+        {"cone", "sphere"},       {"gnomonical", "custom"},
+        {"tan", "sin"},           {"R8G8B8", "L8"},
+        {"semantic", "panoptic"}, {"visible_2d", "3d"}};
+    const auto other = kOthers.find(word);
+    return other == kOthers.end() ? "slide" : other->second;
+}
 
 /// One sensor of each kind, no parameter as it is by default.
 std::vector<SensorSpec> sensors_of_all_kinds() {
@@ -29,10 +41,7 @@ std::vector<SensorSpec> sensors_of_all_kinds() {
             else if constexpr (std::is_same_v<Value, std::vector<std::string>>)
                 value = {"slide", "wrist"};
             else if constexpr (std::is_same_v<Value, std::string>)
-                value = value == "child"             ? "parent"
-                        : value == "child_to_parent" ? "parent_to_child"
-                        : value == "cone"            ? "sphere"
-                                                     : "slide";
+                value = other_than(value);
             else if constexpr (std::is_same_v<Value, Vec3>)
                 value.y = ++next;
             else if constexpr (std::is_same_v<Value, Pose>)
