@@ -42,7 +42,7 @@ class BusClient : public Client {
 
     /// Handles the messages received and requests what is missing. Never waits.
     void advance(Bus& bus);
-    /// From now on cameras see these visuals; without it a camera cannot be read.
+    /// Sets the visuals that cameras render. Before, cameras cannot be read.
     void set_visuals(render::VisualsOf visuals) { visuals_ = std::move(visuals); }
     /// A new observation is shown and waits for an answer().
     bool observing() const { return observing_; }

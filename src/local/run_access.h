@@ -47,7 +47,8 @@ class RunAccess : private SensorSources {
     /// All contact points of the tick that begins at tick(), as long as no order takes effect at it
     /// (physics/probe.h). Valid until the world is changed.
     std::span<const ContactReport> contacts() { return step_probe().contacts(); }
-    /// From now on cameras see these visuals, with so many threads; without it a camera cannot be read.
+    /// Sets the visuals that cameras render, and the number of threads that render them. Before, cameras
+    /// cannot be read.
     void set_visuals(render::VisualsOf visuals, unsigned threads);
     /// What cameras see at tick(). Valid until the world is changed.
     Result<const CameraScene*> camera_scene() override;

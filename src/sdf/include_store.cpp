@@ -7,7 +7,6 @@
 #include <fstream>
 
 #include "sdf/newer_versions.h"
-#include "sdf/standard_models.h"
 #include "sdf/urdf.h"
 
 namespace roboss::sdf_import {
@@ -60,18 +59,28 @@ std::unique_ptr<SourceFile> IncludeStore::read(const std::string& path) {
     return file;
 }
 
-const SourceFile* IncludeStore::file_of(const Element& include) {
+IncludeStore::Found IncludeStore::find(const Element& include) const {
     const std::string uri = include.text("uri");
-    const Resolved found = paths_.resolve_model(uri, include.source->folder());
-    const auto built_in = found.path ? std::nullopt : standard_model(uri);
-    if (!found.path && !built_in) {
-        report_not_found(include, found);
+    Found found{paths_.resolve_model(uri, include.source->folder()), std::nullopt};
+    if (!found.file.path) found.built_in = standard_model(uri);
+    return found;
+}
+
+std::optional<std::string> IncludeStore::Found::path() const {
+    return built_in ? built_in->path : file.path;
+}
+
+const SourceFile* IncludeStore::file_of(const Element& include) {
+    const Found found = find(include);
+    if (!found.path()) {
+        report_not_found(include, found.file);
         return nullptr;
     }
-    const std::string path = found.path ? *found.path : built_in->path;
+    const std::string path = *found.path();
     const auto [entry, is_new] = files_.try_emplace(path);
     if (is_new) {
-        auto file = built_in ? SourceFile::from_text(path, built_in->text, {}, diagnostics_) : read(path);
+        auto file =
+            found.built_in ? SourceFile::from_text(path, found.built_in->text, {}, diagnostics_) : read(path);
         if (file && !first_model(*file)) {
             // model://sun is in nearly every world of Gazebo's older version: a file with a light.
             const bool lights = holds_scenery_only(*file);
@@ -91,10 +100,7 @@ Element IncludeStore::model_of(const Element& include) {
 }
 
 const SourceFile* IncludeStore::lights_of(const Element& include) {
-    const std::string uri = include.text("uri");
-    const Resolved found = paths_.resolve_model(uri, include.source->folder());
-    const auto built_in = found.path ? std::nullopt : standard_model(uri);
-    const auto known = lights_.find(found.path ? *found.path : built_in ? built_in->path : "");
+    const auto known = lights_.find(find(include).path().value_or(""));
     return known == lights_.end() ? nullptr : known->second.get();
 }
 

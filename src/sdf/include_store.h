@@ -11,6 +11,7 @@
 #include "sdf/resource_paths.h"
 #include "sdf/skeleton.h"
 #include "sdf/source_file.h"
+#include "sdf/standard_models.h"
 
 namespace roboss::sdf_import {
 
@@ -34,6 +35,13 @@ class IncludeStore : public SkeletonIncludes {
     const Skeleton* skeleton_of(const std::string& written_file) const;
 
   private:
+    /// Where an <include> leads.
+    struct Found {
+        Resolved file;
+        std::optional<StandardModel> built_in;    // where there is no such file
+        std::optional<std::string> path() const;  // of either; nullopt: it leads nowhere
+    };
+    Found find(const Element& include) const;
     const SourceFile* file_of(const Element& include);
     std::unique_ptr<SourceFile> read(const std::string& path);
     void report_not_found(const Element& include, const Resolved& tried);

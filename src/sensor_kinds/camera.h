@@ -35,15 +35,8 @@ struct ColorCameraSpec {
     NoiseSpec noise;                ///< of each channel, 0..1
 
     /// What this kind states about itself.
-    static constexpr SensorKind kKind{.number = 44,
-                                      .name = "camera",
-                                      .phrase = "a camera",
-                                      .sdf_types = "camera|wideanglecamera|wide_angle_camera",
-                                      .block = "camera",
-                                      .block_required = true,
-                                      .needs_all_states = true,
-                                      .is_image = true,
-                                      .ignored = CameraOptics::kIgnored};
+    static constexpr SensorKind kKind =
+        CameraOptics::kind(44, "camera", "a camera", "camera|wideanglecamera|wide_angle_camera");
 
     /// Calls visit(Parameter, value) for each parameter, always in the same order.
     template <class Visitor, class Self>

@@ -55,9 +55,23 @@ struct CameraOptics {
     static constexpr IgnoredElement kIgnored[] = {
         {"save", "", "images are saved by `roboss sense` or a program"},
         {"visibility_mask", "4294967295", "all visuals are seen"},
-        {"triggered", "false|0", "a camera measures when it is asked"},
+        {"triggered", "false|0", "a camera renders on request"},
         {"distortion/center", "0.5 0.5", "the centre of distortion is the principal point"},
     };
+
+    /// What a kind of camera states about itself, beside its own number, names and SDF types.
+    static constexpr SensorKind kind(std::uint32_t number, const char* name, const char* phrase,
+                                     const char* sdf_types) {
+        return {.number = number,
+                .name = name,
+                .phrase = phrase,
+                .sdf_types = sdf_types,
+                .block = "camera",
+                .block_required = true,
+                .needs_all_states = true,
+                .is_image = true,
+                .ignored = kIgnored};
+    }
 
     /// Calls visit(Parameter, value) for each parameter, always in the same order.
     template <class Visitor, class Self>

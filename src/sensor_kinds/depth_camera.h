@@ -35,15 +35,8 @@ struct DepthCameraSpec {
     NoiseSpec noise;      ///< m
 
     /// What this kind states about itself.
-    static constexpr SensorKind kKind{.number = 45,
-                                      .name = "depth camera",
-                                      .phrase = "a depth camera",
-                                      .sdf_types = "depth|depth_camera",
-                                      .block = "camera",
-                                      .block_required = true,
-                                      .needs_all_states = true,
-                                      .is_image = true,
-                                      .ignored = CameraOptics::kIgnored};
+    static constexpr SensorKind kKind =
+        CameraOptics::kind(45, "depth camera", "a depth camera", "depth|depth_camera");
 
     /// Calls visit(Parameter, value) for each parameter, always in the same order. A `<clip>` of
     /// `<depth_camera>` comes before that of the camera.
@@ -90,15 +83,8 @@ struct RgbdCameraSpec {
     NoiseSpec noise;                ///< m, of depth
 
     /// What this kind states about itself.
-    static constexpr SensorKind kKind{.number = 46,
-                                      .name = "rgbd camera",
-                                      .phrase = "an RGB-D camera",
-                                      .sdf_types = "rgbd|rgbd_camera",
-                                      .block = "camera",
-                                      .block_required = true,
-                                      .needs_all_states = true,
-                                      .is_image = true,
-                                      .ignored = CameraOptics::kIgnored};
+    static constexpr SensorKind kKind =
+        CameraOptics::kind(46, "rgbd camera", "an RGB-D camera", "rgbd|rgbd_camera");
 
     /// Calls visit(Parameter, value) for each parameter, always in the same order.
     template <class Visitor, class Self>

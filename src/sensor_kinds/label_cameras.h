@@ -37,15 +37,8 @@ struct SegmentationCameraSpec {
     std::string type = "semantic";  ///< semantic, instance or panoptic (the two are the same)
 
     /// What this kind states about itself.
-    static constexpr SensorKind kKind{.number = 47,
-                                      .name = "segmentation camera",
-                                      .phrase = "a segmentation camera",
-                                      .sdf_types = "segmentation|segmentation_camera",
-                                      .block = "camera",
-                                      .block_required = true,
-                                      .needs_all_states = true,
-                                      .is_image = true,
-                                      .ignored = CameraOptics::kIgnored};
+    static constexpr SensorKind kKind = CameraOptics::kind(47, "segmentation camera", "a segmentation camera",
+                                                           "segmentation|segmentation_camera");
 
     /// Calls visit(Parameter, value) for each parameter, always in the same order.
     template <class Visitor, class Self>
@@ -102,15 +95,8 @@ struct BoxCameraSpec {
     bool is_full() const { return type == "full_2d" || type == "full_box_2d"; }
 
     /// What this kind states about itself.
-    static constexpr SensorKind kKind{.number = 48,
-                                      .name = "box camera",
-                                      .phrase = "a bounding box camera",
-                                      .sdf_types = "boundingbox|boundingbox_camera",
-                                      .block = "camera",
-                                      .block_required = true,
-                                      .needs_all_states = true,
-                                      .is_image = true,
-                                      .ignored = CameraOptics::kIgnored};
+    static constexpr SensorKind kKind =
+        CameraOptics::kind(48, "box camera", "a bounding box camera", "boundingbox|boundingbox_camera");
 
     /// Calls visit(Parameter, value) for each parameter, always in the same order.
     template <class Visitor, class Self>

@@ -38,15 +38,8 @@ struct ThermalCameraSpec {
     NoiseSpec noise;          ///< K
 
     /// What this kind states about itself.
-    static constexpr SensorKind kKind{.number = 49,
-                                      .name = "thermal camera",
-                                      .phrase = "a thermal camera",
-                                      .sdf_types = "thermal|thermal_camera",
-                                      .block = "camera",
-                                      .block_required = true,
-                                      .needs_all_states = true,
-                                      .is_image = true,
-                                      .ignored = CameraOptics::kIgnored};
+    static constexpr SensorKind kKind =
+        CameraOptics::kind(49, "thermal camera", "a thermal camera", "thermal|thermal_camera");
 
     /// Calls visit(Parameter, value) for each parameter, always in the same order. The importer reads those
     /// of the ThermalSensor plugin, which stands beside the block.

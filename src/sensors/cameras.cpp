@@ -3,9 +3,8 @@
 #include <cmath>
 #include <limits>
 
-#include "physics/dynamics/kinematics.h"
-#include "render/view.h"
 #include "sensors/infinity.h"
+#include "sensors/placed_camera.h"
 #include "sensors/readings.h"
 #include "sensors/sensor_noise.h"
 
@@ -13,23 +12,7 @@ namespace roboss {
 namespace {
 
 using render::CameraView;
-using render::Lens;
 using render::Sighting;
-
-CameraView view_of(const CameraOptics& optics, const SensorQuery& query, const CameraScene& scene) {
-    const SensorInfo& info = query.info();
-    const Transform X_WL = link_pose(query.type(), query.state, info.link);
-    return {X_WL * to_transform(info.spec.X_LS) * to_transform(optics.X_SC), optics,
-            scene.items_of(query.robot, info.link)};
-}
-
-/// The numbers that other programs know as camera_info.
-template <class Reading>
-void add_info(const CameraOptics& optics, Reading& reading) {
-    const Lens lens(optics);
-    reading.intrinsics = {lens.fx(), lens.fy(), lens.cx(), lens.cy()};
-    reading.distortion = {optics.k1, optics.k2, optics.p1, optics.p2, optics.k3};
-}
 
 bool is_noisy(const NoiseSpec& noise) {
     return !(noise == NoiseSpec{});
@@ -78,66 +61,57 @@ Image<float> depth_image(const CameraScene& scene, const CameraView& view, doubl
 
 }  // namespace
 
-Result<const CameraScene*> SensorSources::camera_scene() {
-    return Error{
-        "cameras see the visuals of a world, which are not in its Model, and here is only the Model",
-        "read cameras where the world file is loaded: in Python, in `roboss sense`, or in a program of "
-        "`roboss run`",
-        "no-look"};
-}
-
 Result<CameraReading> read(const ColorCameraSpec& camera, const SensorQuery& query) {
-    const Result<const CameraScene*> scene = query.sources.camera_scene();
-    if (!scene) return scene.error();
-    const CameraView view = view_of(camera.optics, query, *scene.value());
+    const Result<PlacedCamera> placed = place_camera(camera.optics, query);
+    if (!placed) return placed.error();
+    const auto& [scene, view] = placed.value();
     CameraReading reading;
-    reading.color = in_format(picture(*scene.value(), view), camera.format);
-    add_noise(reading.color, camera.noise, query);
     add_info(camera.optics, reading);
+    reading.color = in_format(picture(scene, view), camera.format);
+    add_noise(reading.color, camera.noise, query);
     return reading;
 }
 
 Result<DepthCameraReading> read(const DepthCameraSpec& camera, const SensorQuery& query) {
-    const Result<const CameraScene*> scene = query.sources.camera_scene();
-    if (!scene) return scene.error();
-    const CameraView view = view_of(camera.optics, query, *scene.value());
+    const Result<PlacedCamera> placed = place_camera(camera.optics, query);
+    if (!placed) return placed.error();
+    const auto& [scene, view] = placed.value();
     DepthCameraReading reading;
-    reading.depth =
-        depth_image(*scene.value(), view, camera.optics.near, camera.optics.far, camera.noise, query);
     add_info(camera.optics, reading);
+    reading.depth = depth_image(scene, view, camera.optics.near, camera.optics.far, camera.noise, query);
     return reading;
 }
 
 Result<RgbdCameraReading> read(const RgbdCameraSpec& camera, const SensorQuery& query) {
-    const Result<const CameraScene*> scene = query.sources.camera_scene();
-    if (!scene) return scene.error();
-    const CameraView view = view_of(camera.optics, query, *scene.value());
+    const Result<PlacedCamera> placed = place_camera(camera.optics, query);
+    if (!placed) return placed.error();
+    const auto& [scene, view] = placed.value();
     RgbdCameraReading reading;
-    reading.color = in_format(picture(*scene.value(), view), camera.format);
+    add_info(camera.optics, reading);
+    reading.color = in_format(picture(scene, view), camera.format);
     const double near = camera.depth_near > 0 ? camera.depth_near : camera.optics.near;
     const double far = camera.depth_far > 0 ? camera.depth_far : camera.optics.far;
-    reading.depth = depth_image(*scene.value(), view, near, far, camera.noise, query);
-    add_info(camera.optics, reading);
+    reading.depth = depth_image(scene, view, near, far, camera.noise, query);
     return reading;
 }
 
 Result<ThermalCameraReading> read(const ThermalCameraSpec& camera, const SensorQuery& query) {
-    const Result<const CameraScene*> scene = query.sources.camera_scene();
-    if (!scene) return scene.error();
-    const CameraView view = view_of(camera.optics, query, *scene.value());
-    const std::vector<Sighting> seen = sight(*scene.value(), view, camera.optics.near, camera.optics.far);
+    const Result<PlacedCamera> placed = place_camera(camera.optics, query);
+    if (!placed) return placed.error();
+    const auto& [scene, view] = placed.value();
+    const std::vector<Sighting> seen = sight(scene, view, camera.optics.near, camera.optics.far);
     ThermalCameraReading reading;
+    add_info(camera.optics, reading);
     reading.temperature = Image<float>(camera.optics.height, camera.optics.width, 1);
     for (std::size_t i = 0; i < seen.size(); ++i) {
         double kelvin = camera.ambient;
         if (seen[i].item != render::kNothing) {
-            const double own = scene.value()->shape(seen[i].item).temperature;
+            const double own = scene.shape(seen[i].item).temperature;
             if (own >= 0) kelvin = own;
         }
         kelvin = rounded_to(std::clamp(kelvin, camera.min, camera.max), camera.resolution);
         reading.temperature.samples[i] = static_cast<float>(noisy_value(kelvin, camera.noise, query, 0, i));
     }
-    add_info(camera.optics, reading);
     return reading;
 }
 

@@ -2,8 +2,7 @@
 #include <algorithm>
 #include <map>
 
-#include "physics/dynamics/kinematics.h"
-#include "render/view.h"
+#include "sensors/placed_camera.h"
 #include "sensors/readings.h"
 
 namespace roboss {
@@ -11,36 +10,14 @@ namespace {
 
 using Thing = CameraScene::Thing;
 
-/// A segmentation or box camera at its place.
-struct LabelView {
-    const CameraScene& scene;
-    render::CameraView view;
-    std::vector<std::uint32_t> things{};  // by pixel, or CameraScene::kNoThing
-
-    void look() {
-        const std::vector<render::Sighting> seen = sight(scene, view, view.optics.near, view.optics.far);
-        for (const render::Sighting& one : seen)
-            things.push_back(one.item == render::kNothing ? CameraScene::kNoThing : scene.thing_of(one.item));
-    }
-};
-
-Result<LabelView> looked(const CameraOptics& optics, const SensorQuery& query) {
-    const Result<const CameraScene*> scene = query.sources.camera_scene();
-    if (!scene) return scene.error();
-    const SensorInfo& info = query.info();
-    const Transform X_WL = link_pose(query.type(), query.state, info.link);
-    LabelView seen{*scene.value(),
-                   {X_WL * to_transform(info.spec.X_LS) * to_transform(optics.X_SC), optics,
-                    scene.value()->items_of(query.robot, info.link)}};
-    seen.look();
-    return seen;
-}
-
-template <class Reading>
-void add_camera_info(const CameraOptics& optics, Reading& reading) {
-    const render::Lens lens(optics);
-    reading.intrinsics = {lens.fx(), lens.fy(), lens.cx(), lens.cy()};
-    reading.distortion = {optics.k1, optics.k2, optics.p1, optics.p2, optics.k3};
+/// By pixel the number of the thing that it shows, or CameraScene::kNoThing.
+std::vector<std::uint32_t> things_seen(const PlacedCamera& camera) {
+    const CameraOptics& optics = camera.view.optics;
+    std::vector<std::uint32_t> things;
+    for (const render::Sighting& one : sight(camera.scene, camera.view, optics.near, optics.far))
+        things.push_back(one.item == render::kNothing ? CameraScene::kNoThing
+                                                      : camera.scene.thing_of(one.item));
+    return things;
 }
 
 Transform place_of(const render::TraceItem& item) {
@@ -77,15 +54,15 @@ struct Rectangle {
 
 /// The image of a thing, whatever hides it, cut at the edges of the image. The edges of its boxes are cut at
 /// the near plane first.
-Rectangle full_box(const LabelView& seen, const Thing& thing) {
-    const render::Lens lens(seen.view.optics);
-    const Transform X_CW = inverse(seen.view.X_WC);
-    const double near = seen.view.optics.near;
+Rectangle full_box(const PlacedCamera& camera, const Thing& thing) {
+    const render::Lens lens(camera.view.optics);
+    const Transform X_CW = inverse(camera.view.X_WC);
+    const double near = camera.view.optics.near;
     Rectangle box;
     const auto add = [&](const Vec3& p_C) {
         if (const auto at = lens.project(p_C)) box.include(at->first, at->second, at->first, at->second);
     };
-    const std::vector<Vec3> corners = corners_of(seen.scene, thing);
+    const std::vector<Vec3> corners = corners_of(camera.scene, thing);
     for (std::size_t first = 0; first < corners.size(); first += 8)
         for (std::size_t a = 0; a < 8; ++a) {
             const Vec3 p = X_CW * corners[first + a];
@@ -99,19 +76,20 @@ Rectangle full_box(const LabelView& seen, const Thing& thing) {
             }
         }
     box.left = std::max(box.left, 0.0), box.top = std::max(box.top, 0.0);
-    box.right = std::min(box.right, static_cast<double>(seen.view.optics.width));
-    box.bottom = std::min(box.bottom, static_cast<double>(seen.view.optics.height));
+    box.right = std::min(box.right, static_cast<double>(camera.view.optics.width));
+    box.bottom = std::min(box.bottom, static_cast<double>(camera.view.optics.height));
     return box;
 }
 
-void add_3d(const LabelView& seen, const Thing& thing, const SensorQuery& query, BoxCameraReading& reading) {
-    Transform X_WB = place_of(seen.scene.item(thing.items.front()));
+void add_3d(const PlacedCamera& camera, const Thing& thing, const SensorQuery& query,
+            BoxCameraReading& reading) {
+    Transform X_WB = place_of(camera.scene.item(thing.items.front()));
     if (thing.robot) X_WB = to_transform(base_pose(query.sources.state_of(*thing.robot)));
     if (thing.robot) X_WB = X_WB * inverse(query.model.type_of(*thing.robot).X_RB);
     const Transform X_BW = inverse(X_WB);
     Aabb box;
-    for (const Vec3& corner : corners_of(seen.scene, thing)) box.include(X_BW * corner);
-    const Transform X_CB = inverse(seen.view.X_WC) * X_WB;
+    for (const Vec3& corner : corners_of(camera.scene, thing)) box.include(X_BW * corner);
+    const Transform X_CB = inverse(camera.view.X_WC) * X_WB;
     const Vec3 centre = X_CB * box.centre(), size = box.max - box.min;
     const Quat q = to_quat(X_CB.R);
     reading.positions.insert(reading.positions.end(), {centre.x, centre.y, centre.z});
@@ -122,45 +100,47 @@ void add_3d(const LabelView& seen, const Thing& thing, const SensorQuery& query,
 }  // namespace
 
 Result<SegmentationCameraReading> read(const SegmentationCameraSpec& camera, const SensorQuery& query) {
-    const Result<LabelView> seen = looked(camera.optics, query);
-    if (!seen) return seen.error();
+    const Result<PlacedCamera> placed = place_camera(camera.optics, query);
+    if (!placed) return placed.error();
+    const std::vector<std::uint32_t> things = things_seen(placed.value());
     SegmentationCameraReading reading;
+    add_info(camera.optics, reading);
     reading.labels = Image<std::uint8_t>(camera.optics.height, camera.optics.width, 1);
     const bool counts = camera.type != "semantic";
     if (counts) reading.instances = Image<std::uint16_t>(camera.optics.height, camera.optics.width, 1);
-    for (std::size_t i = 0; i < seen.value().things.size(); ++i) {
-        const std::uint32_t number = seen.value().things[i];
+    for (std::size_t i = 0; i < things.size(); ++i) {
+        const std::uint32_t number = things[i];
         if (number == CameraScene::kNoThing) continue;
-        const Thing& thing = seen.value().scene.things()[number];
+        const Thing& thing = placed.value().scene.things()[number];
         reading.labels.samples[i] = static_cast<std::uint8_t>(thing.label);
         if (counts) reading.instances.samples[i] = thing.of_label;
     }
-    add_camera_info(camera.optics, reading);
     return reading;
 }
 
 Result<BoxCameraReading> read(const BoxCameraSpec& camera, const SensorQuery& query) {
-    const Result<LabelView> seen = looked(camera.optics, query);
-    if (!seen) return seen.error();
+    const Result<PlacedCamera> placed = place_camera(camera.optics, query);
+    if (!placed) return placed.error();
+    const std::vector<std::uint32_t> things = things_seen(placed.value());
     std::map<std::uint32_t, Rectangle> visible;
     const auto width = static_cast<std::size_t>(camera.optics.width);
-    for (std::size_t i = 0; i < seen.value().things.size(); ++i) {
-        const std::uint32_t thing = seen.value().things[i];
+    for (std::size_t i = 0; i < things.size(); ++i) {
+        const std::uint32_t thing = things[i];
         const auto column = static_cast<double>(i % width), row = static_cast<double>(i / width);
         if (thing != CameraScene::kNoThing) visible[thing].include(column, row, column + 1, row + 1);
     }
     BoxCameraReading reading;
+    add_info(camera.optics, reading);
     for (const auto& entry : visible) {
-        const Thing& thing = seen.value().scene.things()[entry.first];
+        const Thing& thing = placed.value().scene.things()[entry.first];
         reading.labels.push_back(thing.label);
         if (!camera.is_visible() && !camera.is_full()) {
-            add_3d(seen.value(), thing, query, reading);
+            add_3d(placed.value(), thing, query, reading);
             continue;
         }
-        const Rectangle box = camera.is_full() ? full_box(seen.value(), thing) : entry.second;
+        const Rectangle box = camera.is_full() ? full_box(placed.value(), thing) : entry.second;
         reading.boxes.insert(reading.boxes.end(), {box.left, box.top, box.right, box.bottom});
     }
-    add_camera_info(camera.optics, reading);
     return reading;
 }
 

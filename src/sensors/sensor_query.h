@@ -24,7 +24,7 @@ class SensorSources {
     virtual StepProbe& step_probe() = 0;
     /// The state of any robot at the tick of the query.
     virtual const RobotState& state_of(RobotId robot) = 0;
-    /// The visuals of all robots at the tick of the query. An Error, "no-look": whoever asks has only the
+    /// The visuals of all robots at the tick of the query. An Error, "no-look": the caller has only the
     /// Model, which says nothing of visuals.
     virtual Result<const CameraScene*> camera_scene();
 };

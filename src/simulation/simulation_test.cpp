@@ -80,7 +80,7 @@ TEST_F(SimulationTest, AProfileSumsOverSimulatorsAndChangesNoBit) {
         const auto simulation = make(model_, simulators);
         ASSERT_TRUE(simulation->submit(push(100)).ok());
         run_until(*simulation, 100);
-        EXPECT_EQ(simulation->take_profile(), StepProfile{}) << "nobody asked for it";
+        EXPECT_EQ(simulation->take_profile(), StepProfile{}) << "no profile was requested";
         simulation->measure(true);
         simulation->set_window(10);
         run_until(*simulation, 200);

@@ -24,7 +24,7 @@ const RunProfile& ProfileMeter::asked(std::int64_t now_ms, Tick tick, double fri
     const bool fresh = !wanted(now_ms);
     asked_ms_ = now_ms;
     if (fresh) shown_ = {};
-    if (fresh || tick < from_) {  // nobody had asked lately, or the run went back
+    if (fresh || tick < from_) {  // the first request after a pause, or the run was rewound
         begin(now_ms, tick);
     } else if (now_ms - since_ms_ >= kEvery_ms && tick > from_) {  // a paused run shows what was last
         shown_ = to_run_profile(sum_, tick - from_, friction_tolerance);

@@ -33,9 +33,11 @@ bool BodySolver::solve(const BodyPart& part, std::vector<double>& v, SolveReport
     iterations_ = 0;
     take(part, v);
     const bool by_sweeps = !position_ && part.members.size() > 1 && sweeps_suffice(part.problem.accuracy);
-    if (!by_sweeps) prepare_factor();
-    const bool balances =
-        by_sweeps ? take_sweeps() : (position_ && displace()) || iterate(part.problem.accuracy);
+    if (by_sweeps)
+        take_sweeps();
+    else
+        prepare_factor();
+    const bool balances = by_sweeps || (position_ && displace()) || iterate(part.problem.accuracy);
     report = {iterations_, residual_};
     if (balances) give(part, v);
     return balances;
@@ -140,15 +142,14 @@ void BodySolver::sweep(int most) {
     for (BodyPoint& p : island_.points) p.bound = p.coefficient * p.swept_n;
 }
 
-/// The velocities by sweeps alone. True, for momentum balances.
-bool BodySolver::take_sweeps() {
+/// The velocities by sweeps alone; momentum balances.
+void BodySolver::take_sweeps() {
     sweep(std::min(most_sweeps(island_.bodies.size()), kSweepsAlone));
     for (BodyPoint& p : island_.points) {
         p.f_n = p.swept_n, p.f_1 = p.swept_1, p.f_2 = p.swept_2;
         p.d_n = p.swept_n > 0 ? p.stiffness_n : 0;
     }
     residual_ = kernel_.set_gradient(island_);
-    return true;
 }
 
 /// A first step to where the bodies would be if every contact did what the sweeps say. False if that is no

@@ -48,7 +48,7 @@ class BodySolver {
     void start();
     bool take_first_step();
     void sweep(int most);
-    bool take_sweeps();
+    void take_sweeps();
     bool start_from_sweeps();
     void start_from_sticking();
     double balance_tied();
