@@ -22,9 +22,10 @@ class Golden:
     orders: str
     duration: float
     precision: str
+    accuracy: str
 
     def __str__(self):
-        return Path(self.world).stem + ("-float" if self.precision == "float" else "")
+        return Path(self.world).stem + ("-float" if self.precision == "float" else "") + self.accuracy
 
 
 def golden_runs():
@@ -36,7 +37,7 @@ def golden_runs():
             continue
         options = dict(zip(words, words[1:]))
         runs.setdefault(words[0], Golden(words[0], words[1], options.get("--orders", ""), float(options["--duration"]),
-                                         options.get("--precision", "double")))
+                                         options.get("--precision", "double"), options.get("--accuracy", "")))
     return list(runs.values())
 
 

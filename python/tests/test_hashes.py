@@ -8,7 +8,7 @@ RUNS = golden_runs()
 
 
 def final_hash(run, threads, part):
-    world = roboss.load(str(REPOSITORY / run.world), precision=run.precision)
+    world = roboss.load(str(REPOSITORY / run.world), precision=run.precision, accuracy=run.accuracy)
     sim = roboss.Simulation(world, threads=threads)
     end = round(run.duration / sim.dt)
     if run.orders:
