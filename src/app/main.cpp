@@ -18,6 +18,7 @@
 #include "app/commands/simulator_command.h"
 #include "app/commands/usage.h"
 #include "app/commands/view_command.h"
+#include "app/dataset/dataset_command.h"
 #include "app/run/sense.h"
 #include "app/viewer/snapshot.h"
 
@@ -26,7 +27,7 @@ namespace {
 /// By what they are for, in the order in which a newcomer needs them.
 void group_commands(CLI::App& app) {
     const std::pair<const char*, std::vector<const char*>> groups[] = {
-        {"Simulate a world", {"run", "check", "snapshot", "sense", "new-client"}},
+        {"Simulate a world", {"run", "check", "snapshot", "sense", "dataset", "new-client"}},
         {"Control and keep a run", {"control", "runs", "save", "replay", "journal", "diff"}},
         {"Members of a run on several computers", {"controller", "simulator", "client", "view", "cluster"}}};
     for (const auto& [group, commands] : groups)
@@ -50,6 +51,7 @@ int main(int argc, char** argv) {
     roboss::add_check_command(app, exit_code);
     roboss::add_snapshot_command(app, exit_code);
     roboss::add_sense_command(app, exit_code);
+    roboss::add_dataset_command(app, exit_code);
     roboss::add_new_client_command(app, exit_code);
     roboss::add_control_command(app, exit_code);
     roboss::add_runs_command(app, exit_code);

@@ -32,6 +32,8 @@ class CameraScene {
     /// By number of an item of trace().
     const render::TraceItem& item(std::uint32_t number) const { return items_[number]; }
     const render::VisualShape& shape(std::uint32_t number) const { return *shapes_[number]; }
+    /// Of an item, along the axes of the world.
+    Aabb box_W(std::uint32_t number) const;
 
     /// What has a label: a model, or a visual of its own.
     struct Thing {
@@ -69,7 +71,6 @@ class CameraScene {
     void place(std::uint32_t item, const Transform& X_WF);
     void place_lights();
     void grow_moving_tree();
-    Aabb box_W(std::uint32_t item) const;
 
     std::shared_ptr<const Model> model_;
     std::shared_ptr<const render::VisualWorld> world_;

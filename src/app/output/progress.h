@@ -2,6 +2,7 @@
 #pragma once
 
 #include <chrono>
+#include <string>
 
 #include "simulation/simulation.h"
 
@@ -11,8 +12,8 @@ class Progress {
   public:
     /// `wanted`: show anything at all. Quiet too if standard error is no terminal.
     explicit Progress(bool wanted);
-    /// Updates the line every half second.
-    void show(const Simulation& simulation);
+    /// Updates the line every half second; `more` is its end.
+    void show(const Simulation& simulation, const std::string& more = {});
     /// Ends the line, so that other text can follow.
     void clear();
 

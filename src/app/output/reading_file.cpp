@@ -5,38 +5,18 @@
 
 #include <cmath>
 #include <cstring>
-#include <fstream>
-#include <type_traits>
+#include <utility>
 
-#include "mesh/image_file.h"
+#include "app/output/array_file.h"
 #include "render/lens.h"
 
 namespace roboss {
 namespace {
 
-Result<> write_bytes(const std::string& file, const std::string& bytes) {
-    std::ofstream out(file, std::ios::binary);
-    if (out << bytes && out.flush()) return Ok{};
-    return Error{file + " cannot be written", "check the folder, its permissions and the free space",
-                 "not-writable"};
-}
-
 Error does_not_fit(const std::string& file, const SensorSpec& sensor, const std::string& remedy) {
     return {
         "a reading of sensor '" + sensor.name + "', " + sensor.kind().phrase + ", is not written as " + file,
         remedy, "reading-format"};
-}
-
-/// Whole numbers of 16 bits: value / unit, 0 where it is not finite.
-std::vector<std::uint16_t> counted(const Image<float>& image, double unit) {
-    std::vector<std::uint16_t> counts;
-    for (const float value : image.samples) {
-        const double count = std::floor(static_cast<double>(value) / unit + 0.5);
-        counts.push_back(std::isfinite(count) && count > 0
-                             ? static_cast<std::uint16_t>(std::fmin(count, 65535.0))
-                             : std::uint16_t{0});
-    }
-    return counts;
 }
 
 /// Writes the first image of a reading as PNG.
@@ -46,38 +26,14 @@ struct PngWriter {
     bool& found;
 
     void operator()(const ReadingField&, const Image<std::uint8_t>& image) const {
-        if (std::exchange(found, true)) return;
-        done = write_png(file, image.columns, image.rows, image.channels, image.samples);
+        if (!std::exchange(found, true)) done = write_image(file, image);
     }
     void operator()(const ReadingField& field, const Image<float>& image) const {
-        if (std::exchange(found, true)) return;
-        constexpr double kMillimetre = 0.001, kHundredthOfKelvin = 0.01;
-        const double unit = std::strcmp(field.unit, "K") == 0 ? kHundredthOfKelvin : kMillimetre;
-        done = write_png16(file, image.columns, image.rows, counted(image, unit));
+        if (!std::exchange(found, true)) done = write_image(file, image, field.unit);
     }
     template <class Value>
     void operator()(const ReadingField&, const Value&) const {}
 };
-
-/// The bytes of an array in NumPy's format 1.0.
-template <class T>
-std::string npy(const char* type, const std::vector<int>& shape, const std::vector<T>& values) {
-    std::string sizes;
-    for (const int size : shape) sizes += fmt::format("{}, ", size);
-    std::string header =
-        fmt::format("{{'descr': '{}', 'fortran_order': False, 'shape': ({}), }}", type, sizes);
-    constexpr std::size_t kPrefix = 10, kAligned = 64;
-    header.append(kAligned - (kPrefix + header.size() + 1) % kAligned, ' ');
-    header += '\n';
-    std::string bytes("\x93NUMPY\x01\x00", 8);
-    bytes += static_cast<char>(header.size() & 0xFF);
-    bytes += static_cast<char>(header.size() >> 8);
-    bytes += header;
-    const std::size_t start = bytes.size();
-    bytes.resize(start + values.size() * sizeof(T));
-    if (!values.empty()) std::memcpy(&bytes[start], values.data(), values.size() * sizeof(T));
-    return bytes;
-}
 
 /// Keeps the first image, or else the first list of numbers.
 struct NpyWriter {
@@ -88,10 +44,10 @@ struct NpyWriter {
         if (!bytes.empty()) return;
         std::vector<int> shape{image.rows, image.columns};
         if (image.channels > 1) shape.push_back(image.channels);
-        bytes = npy(std::is_same_v<T, float> ? "<f4" : sizeof(T) == 2 ? "<u2" : "|u1", shape, image.samples);
+        bytes = npy(shape, image.samples);
     }
     void operator()(const ReadingField&, const std::vector<double>& values) const {
-        if (bytes.empty()) bytes = npy("<f8", {static_cast<int>(values.size())}, values);
+        if (bytes.empty()) bytes = npy({static_cast<int>(values.size())}, values);
     }
     template <class Value>
     void operator()(const ReadingField&, const Value&) const {}

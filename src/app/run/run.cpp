@@ -83,6 +83,7 @@ bool Run::prepare() {
     if (Result<> found = check_snapshot(o_.snapshot, *model_); !found) return print(found.error()), false;
     if (Result<> found = check_sense(o_.sense, *model_); !found) return print(found.error()), false;
     world_model_ = model_;
+    if (o_.dataset.wanted()) labels_ = label_world(*world, o_.dataset.labels);
     if (is_shown()) visuals_.begin(*model_, std::move(*world));
     Result<std::unique_ptr<RunJournal>> journal = RunJournal::open(o_, *model_);
     if (!journal) return print(journal.error()), false;
@@ -169,7 +170,7 @@ bool Run::open_gateway() {
 }
 
 bool Run::list() {
-    if (takes_picture() || listing_) return true;
+    if (takes_picture() || o_.dataset.wanted() || listing_) return true;
     const auto unlisted = [this](const Error& error) {
         if (error.code == "run-exists") return print(error), false;
         notices_.push_back(error.text());
@@ -282,10 +283,24 @@ bool Run::open_files() {
         if (!contacts) return print(contacts.error()), false;
         contacts_ = std::move(contacts.value());
     }
+    if (o_.dataset.wanted() && !open_dataset()) return false;
     if (o_.trace.empty()) return true;
     Result<TraceFile> trace = TraceFile::create(o_.trace);
     if (!trace) return print(trace.error()), false;
     trace_ = std::move(trace.value());
+    return true;
+}
+
+bool Run::open_dataset() {
+    DatasetRun run{model_,
+                   o_.world,
+                   simulation_->seed(),
+                   static_cast<unsigned>(threads_of_each(o_.threads, 1)),
+                   [this](const Model& model) { return visual_world(model); },
+                   labels_};
+    Result<std::unique_ptr<Dataset>> dataset = Dataset::create(o_.dataset, std::move(run));
+    if (!dataset) return print(dataset.error()), false;
+    dataset_ = std::move(dataset).value();
     return true;
 }
 
@@ -345,6 +360,10 @@ int Run::finish(bool fine, double wall_s) {
     };
     if (trace_) check(trace_->close());
     if (contacts_) check(contacts_->close());
+    if (dataset_) {
+        check(dataset_->close());
+        fmt::print(stderr, "wrote {}\n", dataset_->summary());
+    }
     if (!o_.save.empty() && !abandoned_) check(simulation_->save(o_.save));
     check(journal_->close());
     take_profile();

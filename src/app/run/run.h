@@ -7,6 +7,7 @@
 #include <memory>
 #include <optional>
 
+#include "app/dataset/dataset.h"
 #include "app/local/control_socket.h"
 #include "app/local/run_list.h"
 #include "app/output/contacts_file.h"
@@ -48,6 +49,7 @@ class Run {
     bool load_programs(const std::shared_ptr<const Model>& model, std::vector<NamedProgram>& programs);
     bool submit(const std::vector<Order>& orders, Tick start);
     bool open_files();
+    bool open_dataset();
     bool begin();
     /// The same run with another Model or from another time: a new Simulation on the same Bus, a new branch.
     struct Turn {
@@ -63,7 +65,9 @@ class Run {
     /// Lists the run for `roboss control`; if that fails, a notice says so. False: its name is taken.
     bool list();
     /// Here, or by `roboss view` elsewhere.
-    bool is_shown() const { return !o_.viewer.headless || o_.is_controller || o_.sense.wanted(); }
+    bool is_shown() const {
+        return !o_.viewer.headless || o_.is_controller || o_.sense.wanted() || o_.dataset.wanted();
+    }
     std::shared_ptr<const render::VisualWorld> visual_world(const Model& model);
     bool takes_picture() const { return !o_.snapshot.file.empty() || o_.sense.wanted(); }
     bool writes_to_standard_output() const;
@@ -128,6 +132,7 @@ class Run {
     void show_progress();
     bool write_trace();
     bool write_contacts();
+    bool write_dataset();
     void collect_paths();
 
     const RunOptions& o_;
@@ -155,6 +160,8 @@ class Run {
     std::optional<TraceFile> trace_;
     std::optional<ContactsFile> contacts_;
     std::optional<EventLog> log_;
+    LabelNames labels_;                 // of what cameras see, for a data set
+    std::unique_ptr<Dataset> dataset_;  // null: none is recorded
     std::vector<RobotPath> paths_;
     double world_speed_ = 0;  // simulated seconds per real second; 0: as fast as possible
     Tick start_ = 0;

@@ -34,9 +34,10 @@ class Due {
 }  // namespace
 
 struct Run::Schedule {
-    Due trace, contacts, hash, picture;
+    Due trace, contacts, dataset, hash, picture;
     Tick next(Tick now) const {
-        return std::min({trace.next(now), contacts.next(now), hash.next(now), picture.next(now)});
+        return std::min(
+            {trace.next(now), contacts.next(now), dataset.next(now), hash.next(now), picture.next(now)});
     }
 };
 
@@ -91,7 +92,7 @@ bool Run::take_picture() {
     if (o_.sense.wanted()) {
         const render::VisualsOf visuals = [this](const Model& model) { return visual_world(model); };
         const auto threads = static_cast<unsigned>(threads_of_each(o_.threads, 1));
-        const Result<> read = take_reading(o_.sense, {*model_, simulation_->states(), simulation_->tick(),
+        const Result<> read = take_reading(o_.sense, {model_, simulation_->states(), simulation_->tick(),
                                                       simulation_->seed(), threads, visuals});
         if (!read) print(read.error());
         return read.ok();
@@ -107,6 +108,7 @@ bool Run::look(const Schedule& due) {
     const Tick now = simulation_->tick();
     if (due.trace.at(now) && !write_trace()) return false;
     if (due.contacts.at(now) && !write_contacts()) return false;
+    if (due.dataset.at(now) && !write_dataset()) return false;
     if (due.hash.at(now)) fmt::print("{:.6f} s  {}\n", simulation_->time_s(), to_hex(simulation_->hash()));
     if (due.picture.at(now)) collect_paths();
     const Result<> checked = journal_->check(now, simulation_->hash());
@@ -122,6 +124,9 @@ Tick Run::last_tick() const {
 Tick Run::end_of_run() const {
     Tick end = o_.duration_s ? start_ + tick_at(*o_.duration_s, model_->dt_s) : kNever;
     if (o_.until_s) end = std::min(end, tick_at(*o_.until_s, model_->dt_s));
+    if (o_.dataset.frames > 0)
+        end = std::min(end, start_ + (o_.dataset.frames - 1) *
+                                         std::max<Tick>(1, tick_at(o_.dataset.every_s, model_->dt_s)));
     return std::min(end, last_tick());
 }
 
@@ -131,6 +136,7 @@ bool Run::drive() {
     const auto every = [dt](double s) { return s > 0 ? s : dt; };
     const Schedule due{{trace_ ? every(o_.trace_every_s) : 0.0, dt, start_},
                        {contacts_ ? every(o_.contacts_every_s) : 0.0, dt, start_},
+                       {dataset_ ? o_.dataset.every_s : 0.0, dt, start_},
                        {o_.hash_every_s, dt, start_},
                        {o_.paths_picture.empty() ? 0.0 : kPictureEvery_s, dt, start_}};
     const bool watched = gateway_ != nullptr && !takes_picture();
@@ -175,7 +181,7 @@ void Run::report_notices() {
 }
 
 void Run::show_progress() {
-    progress_.show(*simulation_);
+    progress_.show(*simulation_, dataset_ ? fmt::format("frame {}  ", dataset_->frames()) : std::string());
     report_notices();
     if (log_) log_->write_state_if_due(*simulation_);
 }
@@ -188,6 +194,14 @@ bool Run::write_trace() {
 
 bool Run::write_contacts() {
     const Result<> written = contacts_->write(*model_, simulation_->tick(), simulation_->contacts());
+    if (!written) print(written.error());
+    return written.ok();
+}
+
+bool Run::write_dataset() {
+    Result<> written = Error{"the world was changed while its data set was recorded",
+                             "record the changed world in a run of its own", "world-changed"};
+    if (dataset_->is_of(*model_)) written = dataset_->write(simulation_->states(), simulation_->tick());
     if (!written) print(written.error());
     return written.ok();
 }

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "app/dataset/dataset_options.h"
 #include "app/run/sense.h"
 #include "app/viewer/snapshot.h"
 #include "app/viewer/viewer.h"
@@ -70,6 +71,7 @@ struct RunOptions {
     ViewerOptions viewer;
     SnapshotOptions snapshot;
     SenseOptions sense;
+    DatasetOptions dataset;
     bool quiet = false;
 };
 

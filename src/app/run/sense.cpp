@@ -8,9 +8,8 @@
 #include "app/commands/numbers.h"
 #include "app/output/reading_file.h"
 #include "app/run/run.h"
+#include "app/run/sensed_states.h"
 #include "core/similar.h"
-#include "render/camera_scene.h"
-#include "sensors/readings.h"
 
 namespace roboss {
 namespace {
@@ -27,44 +26,6 @@ Examples:
   roboss sense worlds/city.sdf --robot car_7 --sensor laser --at 5 -o laser.csv
 
 Exit codes: those of `roboss run`; 3 also if the sensor cannot measure or the file cannot be written.)";
-
-/// States of one tick, as sensors ask for them.
-class StatesOfTick final : public SensorSources {
-  public:
-    explicit StatesOfTick(const SensedRun& run) : run_(run) {
-        for (const RobotState& state : run.states) pointers_.push_back(&state);
-        // not owned: the Model outlives this
-        model_ = std::shared_ptr<const Model>(std::shared_ptr<const Model>(), &run.model);
-    }
-    RayScene& ray_scene() override {
-        if (!rays_) rays_ = std::make_unique<RayScene>(model_), rays_->update(pointers_);
-        return *rays_;
-    }
-    StepProbe& step_probe() override {
-        if (!probe_) probe_ = std::make_unique<StepProbe>(run_.model), probe_->step(run_.tick, pointers_);
-        return *probe_;
-    }
-    const RobotState& state_of(RobotId robot) override { return run_.states[robot.index()]; }
-    Result<const CameraScene*> camera_scene() override {
-        if (!cameras_) {
-            cameras_ = std::make_unique<CameraScene>(model_, run_.visuals(run_.model), run_.threads);
-            cameras_->update(pointers_);
-        }
-        return cameras_.get();
-    }
-    /// Pictures that cameras do not show.
-    std::vector<std::string> problems() const {
-        return cameras_ ? cameras_->world().problems : std::vector<std::string>();
-    }
-
-  private:
-    const SensedRun& run_;
-    std::vector<const RobotState*> pointers_;
-    std::shared_ptr<const Model> model_;
-    std::unique_ptr<RayScene> rays_;
-    std::unique_ptr<StepProbe> probe_;
-    std::unique_ptr<CameraScene> cameras_;
-};
 
 Result<std::pair<RobotId, std::size_t>> find_sensor(const SenseOptions& o, const Model& model) {
     const std::optional<RobotId> robot = model.find_robot(o.robot);
@@ -93,16 +54,16 @@ Result<> check_sense(const SenseOptions& options, const Model& model) {
 }
 
 Result<> take_reading(const SenseOptions& options, const SensedRun& run) {
-    const auto found = find_sensor(options, run.model);
+    const auto found = find_sensor(options, *run.model);
     if (!found) return found.error();
     const RobotId robot = found.value().first;
-    StatesOfTick sources(run);
-    const Result<Sample> sample = measure(
-        {run.model, robot, found.value().second, run.states[robot.index()], run.tick, run.seed, sources});
+    SensedStates sources(run.model, run.visuals, run.threads);
+    sources.update(run.states, run.tick);
+    const Result<Sample> sample = sources.read(robot, found.value().second, run.seed);
     if (!sample) return sample.error();
     for (const std::string& problem : sources.problems())
         fmt::print(stderr, "note: a picture is not shown: {}\n", problem);
-    const SensorSpec& spec = run.model.type_of(robot).sensors[found.value().second].spec;
+    const SensorSpec& spec = run.model->type_of(robot).sensors[found.value().second].spec;
     const Result<> written = write_reading(options.file, sample.value(), spec);
     if (written) fmt::print(stderr, "wrote {}\n", options.file);
     return written;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <memory>
 #include <span>
 #include <string>
 
@@ -23,7 +24,7 @@ Result<> check_sense(const SenseOptions& options, const Model& model);
 
 /// The states of all robots at a tick, by RobotId, and what they look like.
 struct SensedRun {
-    const Model& model;
+    std::shared_ptr<const Model> model;
     std::span<const RobotState> states;
     Tick tick = 0;
     std::uint64_t seed = 0;
