@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Sets up, builds and runs the benchmarks: ./bench.sh [NAME] [flags]; without a name it lists them.
-# A name is a program of its own (peers, accuracy, table1, viewer, learning), or a Google Benchmark of roboss-bench; flags go on to it.
+# A name is a program of its own (peers, accuracy, table1, viewer, learning, cameras_beside_mujoco), or a Google Benchmark of roboss-bench; flags go on to it.
 # Rows carry commit, compiler, CPU, world and number of robots; the same rows as JSON go to build/bench/NAME.json.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")"
@@ -79,6 +79,17 @@ learning() {
     printf 'rows as JSON: %s\n' "$rows"
 }
 
+# Images of cameras beside MuJoCo's renderer with Mesa's software OpenGL (docs/sensors.md).
+cameras_beside_mujoco() {
+    tools/setup.sh build bench cameras
+    build roboss-bench
+    local venv=build/bench/osmesa rows=build/bench/cameras_beside_mujoco.json
+    [[ -x $venv/bin/python ]] || python3 -m venv "$venv"
+    "$venv/bin/python" -m pip install -q --disable-pip-version-check mujoco-core==4.0.1 numpy pillow pyopengl glfw
+    "$venv/bin/python" -B bench/cameras/beside_mujoco.py --json "$rows" "$@"
+    printf 'rows as JSON: %s\n' "$rows"
+}
+
 # Google Benchmarks whose names match.
 google_benchmark() {
     tools/setup.sh build bench
@@ -91,6 +102,7 @@ google_benchmark() {
         printf 'table1  (one world on 1 to 12 Simulators, the paper'"'"'s experiment: about 20 minutes; --help)\n'
         printf 'viewer  (what browsers cost a run of 2000 cars: a minute; --help)\n'
         printf 'learning  (agents in Python, beside MuJoCo: a quarter of an hour; --only 64: one; --help)\n'
+        printf 'cameras_beside_mujoco  (images beside its renderer with software OpenGL: some minutes; --help)\n'
         exec "$program" --benchmark_list_tests
     fi
     local name=$1
@@ -103,6 +115,6 @@ google_benchmark() {
 }
 
 case ${1:-} in
-    peers | accuracy | table1 | viewer | learning) "$@" ;;
+    peers | accuracy | table1 | viewer | learning | cameras_beside_mujoco) "$@" ;;
     *) google_benchmark "$@" ;;
 esac
