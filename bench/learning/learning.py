@@ -21,7 +21,7 @@ import numpy as np
 
 import roboss
 from mujoco_city import DepthCameras, MujocoCityTask, mujoco
-from roboss.camera import _plane_of, _rays_of
+from roboss.camera import _axes_of, _plane_of, _rays_of
 from roboss.envs import CityTask, TaskVectorEnv, follow_the_gap
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -57,8 +57,8 @@ class Entry:
     def look_of(self, task):
         """What gives the images of all cars."""
         if self.engine == "MuJoCo":
-            return DepthCameras(task.robots, EYE_M, _rays_of(_plane_of(PIXELS, FOV_RAD, FAR_M), np.array(EYE_M),
-                                                             np.array(TARGET_M)), FAR_M).depth
+            axes = _axes_of(np.array(EYE_M), np.array(TARGET_M))
+            return DepthCameras(task.robots, EYE_M, _rays_of(_plane_of(PIXELS, FOV_RAD, FAR_M), axes), FAR_M).depth
         cameras = task.robots.camera(EYE_M, TARGET_M, size=PIXELS, fov=FOV_RAD, far=FAR_M)
         return cameras.depth if self.camera == "depth" else cameras.picture
 

@@ -1,4 +1,4 @@
-"""Camera and RobotCameras: pictures of a simulation without a browser, by rays against the shapes that collide."""
+"""Camera and RobotCameras: pictures of a simulation without a browser, and what rays meet."""
 from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any, Callable, Optional, Union
@@ -16,16 +16,13 @@ if TYPE_CHECKING:
     from .simulation import Simulation
 
 Floats = NDArray[np.float64]
-_SUN = np.array([0.4, -0.3, 0.87]) / np.linalg.norm([0.4, -0.3, 0.87])  # towards it
-_SKY, _HAZE, _SCENERY = np.array([150, 185, 225.0]), np.array([232, 238, 244.0]), np.array([176, 172, 162.0])
-_ROBOTS = np.array([[222, 96, 38], [46, 110, 170], [90, 150, 70], [200, 160, 40], [140, 80, 150], [60, 150, 150.0]])
 
 
 class Camera:
     """A camera at rest that looks from `position` to `target`, with z upwards. Simulation.camera makes it.
 
-    It draws collision shapes, robots of a type in one colour, with the shadows of a sun. The page of
-    Simulation.view draws the visuals of the file; cameras are for films and frames where there is no browser.
+    Pictures show the visuals of the world in its light, as camera sensors see them; depth() and segmentation()
+    are those of the shapes that collide, as lidars see them. No bit of a picture depends on threads or processor.
 
     Attributes:
         position, target: m, world; may be assigned between two pictures.
@@ -41,25 +38,31 @@ class Camera:
     def __init__(self, simulation: Union[Simulation, RemoteSimulation], position: ArrayLike, target: ArrayLike,
                  size: tuple[int, int], fov: float, far: float):
         self.position, self.target = filled("position", position, (3,)), filled("target", target, (3,))
-        self._simulation, self._far, self._plane = simulation, far, _plane_of(size, fov, far)
+        self._simulation, self._plane = simulation, _plane_of(size, fov, far)
+        self._lens = (*size, fov, far)
 
     def depth(self) -> Floats:
         """Distance along each ray in m, (rows, columns); infinite where there is nothing within `far`."""
-        return self._look()[2]
+        return self._cast()[0]
 
     def segmentation(self) -> NDArray[np.int32]:
         """Which robot is seen, (rows, columns): its place in World.robots; -1: scenery, or nothing."""
-        return self._look()[3]
+        return self._cast()[1]
 
     def picture(self) -> NDArray[np.uint8]:
         """What it sees, (rows, columns, 3): red, green, blue."""
-        return _picture_of(self._simulation, self._far, _threads_of(self._simulation), *self._look())
+        position, axes = self._place()
+        return _pictures(self._simulation, position[None], axes[None], self._lens)[0]
 
-    def _look(self) -> tuple[Floats, Floats, Floats, NDArray[np.int32]]:
-        """Where it is, directions, distances and robots by pixel."""
+    def _place(self) -> tuple[Floats, Floats]:
+        """Where it is, and its axes."""
         position = filled("position", self.position, (3,))
-        rays = _rays_of(self._plane, position, filled("target", self.target, (3,)))
-        return position, rays, *_cast(self._simulation, position, rays, self._far, _threads_of(self._simulation))
+        return position, _axes_of(position, filled("target", self.target, (3,)))
+
+    def _cast(self) -> tuple[Floats, NDArray[np.int32]]:
+        """Distances and robots by pixel."""
+        position, axes = self._place()
+        return _cast(self._simulation, position, _rays_of(self._plane, axes), self._lens[3], _threads_of(self._simulation))
 
 
 class RobotCameras:
@@ -75,10 +78,10 @@ class RobotCameras:
 
     def __init__(self, robots: Robots, position: ArrayLike, target: ArrayLike, link: Optional[str], size: tuple[int, int],
                  fov: float, far: float):
-        self._robots, self._link, self._far = robots, link, far
-        self._threads = _threads_of(robots.simulation)
+        self._robots, self._link, self._lens = robots, link, (*size, fov, far)
         self._position = filled("position", position, (3,))
-        self._rays = _rays_of(_plane_of(size, fov, far), self._position, filled("target", target, (3,)))
+        self._axes = _axes_of(self._position, filled("target", target, (3,)))
+        self._rays = _rays_of(_plane_of(size, fov, far), self._axes)
 
     def depth(self) -> Floats:
         """Distance along each ray in m, (N, rows, columns); infinite where there is nothing within `far`."""
@@ -90,23 +93,21 @@ class RobotCameras:
 
     def picture(self) -> NDArray[np.uint8]:
         """What they see, (N, rows, columns, 3): red, green, blue."""
-        return self._each(lambda simulation, eyes, rays: _picture_of(
-            simulation, self._far, self._threads, eyes, rays, *self._cast(simulation, eyes, rays)))
+        return self._each(lambda simulation, eyes, turns: _pictures(simulation, eyes, turns @ self._axes, self._lens))
 
-    def _cast(self, simulation: Simulation, eyes: Floats, rays: Floats) -> tuple[Floats, NDArray[np.int32]]:
-        return _cast(simulation, eyes, rays, self._far, self._threads)
+    def _cast(self, simulation: Simulation, eyes: Floats, turns: Floats) -> tuple[Floats, NDArray[np.int32]]:
+        rays = np.einsum("nij,rcj->nrci", turns, self._rays)
+        return _cast(simulation, eyes[:, None, None], rays, self._lens[3], _threads_of(self._robots.simulation))
 
     def _each(self, look: Callable) -> NDArray:
-        """What look(simulation, eyes (N, 1, 1, 3), rays (N, rows, columns, 3)) gives of each simulation."""
+        """What look(simulation, eyes (N, 3), rotations of the robots (N, 3, 3)) gives of each simulation."""
         robots = self._robots
         poses = robots.pose if self._link is None else robots.link_pose(self._link)
         several = robots.simulation if robots.simulation._shape else [robots.simulation]
         seen = []
         for simulation, pose in zip(several, poses.reshape(len(several), -1, 7)):
             turns = _matrices(pose[:, 3:])
-            eyes = pose[:, :3] + turns @ self._position
-            rays = np.einsum("nij,rcj->nrci", turns, self._rays)
-            seen.append(look(simulation, eyes[:, None, None], rays))
+            seen.append(look(simulation, pose[:, :3] + turns @ self._position, turns))
         return np.stack(seen) if robots.simulation._shape else seen[0]
 
 
@@ -121,15 +122,21 @@ def _plane_of(size: tuple[int, int], fov: float, far: float) -> Floats:
     return np.stack(np.broadcast_arrays(across[None, :], upwards[:, None]), axis=-1)
 
 
-def _rays_of(plane: Floats, position: Floats, target: Floats) -> Floats:
-    """Directions of the rays, (rows, columns, 3)."""
+def _axes_of(position: Floats, target: Floats) -> Floats:
+    """Columns: unit vectors ahead, to the left and up, (3, 3)."""
     forward = target - position
     right = np.cross(forward, [0, 0, 1.0])
     if not np.linalg.norm(right) > 1e-9 * np.linalg.norm(forward) or not forward.any():
         raise ArgumentError("a camera that looks straight up or down, or nowhere",
                             "move the position or the target a little", "bad-camera")
     forward, right = forward / np.linalg.norm(forward), right / np.linalg.norm(right)
-    rays = forward + plane[..., :1] * right + plane[..., 1:] * np.cross(right, forward)
+    return np.stack([forward, -right, np.cross(right, forward)], axis=1)
+
+
+def _rays_of(plane: Floats, axes: Floats) -> Floats:
+    """Directions of the rays, (rows, columns, 3)."""
+    forward, left, up = axes.T
+    rays = forward - plane[..., :1] * left + plane[..., 1:] * up
     return rays / np.linalg.norm(rays, axis=-1, keepdims=True)
 
 
@@ -155,22 +162,10 @@ def _threads_of(simulation: Any) -> int:
     return getattr(simulation._core, "threads", 1)
 
 
-def _picture_of(simulation: Any, far: float, threads: int, origins: Floats, rays: Floats, distance: Floats,
-                robot: NDArray[np.int32]) -> NDArray[np.uint8]:
-    """Colours of pixels, (..., rows, columns, 3)."""
-    seen = np.isfinite(distance)
-    points = origins + rays * np.where(seen, distance, far)[..., None]
-    normal = np.cross(np.gradient(points, axis=-2), np.gradient(points, axis=-3))
-    normal /= np.maximum(np.linalg.norm(normal, axis=-1, keepdims=True), 1e-12)
-    normal *= -np.sign(np.sum(normal * rays, axis=-1, keepdims=True))
-    lit = np.clip(normal @ _SUN, 0, 1)
-    shadow = np.zeros_like(lit)
-    starts = points[seen] + 2e-3 * normal[seen]
-    shadow[seen] = np.isfinite(_cast(simulation, starts, np.broadcast_to(_SUN, starts.shape), far, threads)[0])
-    types = np.array([*simulation.world._types, -1])
-    colour = np.where((robot >= 0)[..., None], _ROBOTS[types[robot] % len(_ROBOTS)], _SCENERY)
-    colour = colour * (0.5 + 0.5 * lit * (1 - shadow))[..., None]
-    height = np.clip(rays[..., 2:] * 2, 0, 1)
-    sky = _HAZE + (_SKY - _HAZE) * height
-    haze = np.clip(np.where(seen, distance, 0) / far, 0, 1)[..., None] ** 2
-    return np.where(seen[..., None], colour + (_HAZE - colour) * haze, sky).round().astype(np.uint8)
+def _pictures(simulation: Any, eyes: Floats, axes: Floats, lens: tuple[int, int, float, float]) -> NDArray[np.uint8]:
+    """Colours of the visuals, (N, rows, columns, 3), seen from `eyes` (N, 3) along the columns of `axes` (N, 3, 3)."""
+    columns, rows, fov, far = lens
+    places = np.concatenate([eyes, np.swapaxes(axes, 1, 2).reshape(-1, 9)], axis=1)
+    colours = np.empty((len(eyes), rows, columns, 3), dtype=np.uint8)
+    _core.picture(simulation._simulations[0], np.ascontiguousarray(places), columns, rows, fov, far, colours)
+    return colours

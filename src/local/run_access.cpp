@@ -1,7 +1,7 @@
 // See run_access.h.
 #include "local/run_access.h"
 
-#include "render/camera_scene.h"
+#include "render/view.h"
 
 namespace roboss {
 
@@ -49,6 +49,12 @@ Result<const CameraScene*> RunAccess::camera_scene() {
     if (!cameras_are_new_) cameras_->update(pointers());
     cameras_are_new_ = true;
     return cameras_.get();
+}
+
+Result<Image<std::uint8_t>> RunAccess::picture(const Transform& X_WC, const CameraOptics& optics) {
+    const Result<const CameraScene*> scene = camera_scene();
+    if (!scene) return scene.error();
+    return render::picture(*scene.value(), {X_WC, optics, {}});
 }
 
 StepProbe& RunAccess::step_probe() {

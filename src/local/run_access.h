@@ -52,6 +52,9 @@ class RunAccess : private SensorSources {
     void set_visuals(render::VisualsOf visuals, unsigned threads);
     /// What cameras see at tick(). Valid until the world is changed.
     Result<const CameraScene*> camera_scene() override;
+    /// The colours of what a camera at X_WC (x ahead, y left, z up) sees at tick(), with the lens of
+    /// `optics`: rows x columns x 3. Errors are those of cameras that are read.
+    Result<Image<std::uint8_t>> picture(const Transform& X_WC, const CameraOptics& optics);
     /// What rays meet at tick(). Valid until the world is changed.
     const RayScene& shapes() { return ray_scene(); }
     /// Another number whenever the states are others than before.

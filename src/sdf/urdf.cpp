@@ -64,6 +64,18 @@ void add_joint_types(const std::map<std::string, std::string>& types, std::strin
     }
 }
 
+/// Gives the cameras their own <horizontal_fov> back, on the same line.
+void add_views(const std::map<std::string, std::string>& views, std::string& sdf) {
+    const std::string begin = "<horizontal_fov>", end = "</horizontal_fov>";
+    for (const auto& [sensor, view] : views) {
+        const std::size_t at = sdf.find("<sensor name='" + sensor + "'");
+        const std::size_t from = at == std::string::npos ? at : sdf.find(begin, at);
+        if (from == std::string::npos || from > sdf.find("</sensor>", at)) continue;
+        const std::size_t text = from + begin.size();
+        sdf.replace(text, sdf.find(end, text) - text, view);
+    }
+}
+
 /// The elements of a transmission with their texts, but for the joints that it names.
 void list_parts(pugi::xml_node parent, std::string& parts) {
     for (const auto node : parent.children()) {
@@ -248,6 +260,7 @@ std::unique_ptr<SourceFile> urdf_to_sdf(const SourceFile& urdf, Diagnostics& dia
     repair_urdf(robot, urdf, diagnostics);
     report_transmissions(urdf, diagnostics);
     const auto joint_types = replace_joint_types(robot, urdf, diagnostics);
+    const auto views = replace_narrow_views(robot);
     sdf::Errors errors;
     std::string text;
     std::vector<ConsoleLine> printed;
@@ -285,6 +298,7 @@ std::unique_ptr<SourceFile> urdf_to_sdf(const SourceFile& urdf, Diagnostics& dia
     if (!report_lost_links(urdf, text, diagnostics)) return nullptr;
     add_mimics(robot, text);
     add_joint_types(joint_types, text);
+    add_views(views, text);
     std::vector<int> lines = map_lines(urdf, text);
     return SourceFile::from_text(urdf.path(), std::move(text), std::move(lines), diagnostics);
 }

@@ -2,6 +2,7 @@
 // place.
 #include "sdf/urdf_repairs.h"
 
+#include <optional>
 #include <set>
 #include <string>
 #include <string_view>
@@ -121,6 +122,20 @@ std::map<std::string, std::string> replace_joint_types(pugi::xml_node robot, con
         }
     }
     return types;
+}
+
+std::map<std::string, std::string> replace_narrow_views(pugi::xml_node robot) {
+    constexpr double kLeast = 0.1;
+    std::map<std::string, std::string> views;
+    for (const auto gazebo : robot.children("gazebo"))
+        for (const auto sensor : gazebo.children("sensor")) {
+            auto view = sensor.child("camera").child("horizontal_fov").text();
+            const std::optional<double> angle = parse_number(view.get());
+            if (!angle || !(*angle > 0 && *angle < kLeast)) continue;
+            views[sensor.attribute("name").value()] = view.get();
+            view.set(kLeast);
+        }
+    return views;
 }
 
 }  // namespace roboss::sdf_import

@@ -22,4 +22,8 @@ void repair_urdf(pugi::xml_node robot, const SourceFile& urdf, Diagnostics& diag
 std::map<std::string, std::string> replace_joint_types(pugi::xml_node robot, const SourceFile& urdf,
                                                        Diagnostics& diagnostics);
 
+/// Cameras with a <horizontal_fov> below 0.1 rad, by the name of their sensor: libsdformat 12 refuses the
+/// file for them, earlier releases and their Gazebo did not. In `robot` they get another one.
+std::map<std::string, std::string> replace_narrow_views(pugi::xml_node robot);
+
 }  // namespace roboss::sdf_import

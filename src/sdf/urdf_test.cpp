@@ -1,6 +1,8 @@
 // URDF through libsdformat.
 #include <gtest/gtest.h>
 
+#include <map>
+
 #include "sdf/test_files.h"
 #include "world/joint_type.h"
 
@@ -241,6 +243,26 @@ TEST(Urdf, TransmissionHasNoEffectAndANoteSaysSo) {
     for (const char* part :
          {"'gear'", "'shoulder'", "<hardwareInterface> EffortJointInterface", "<mechanicalReduction> 50"})
         EXPECT_NE(note->message.find(part), std::string::npos) << note->message;
+}
+
+/// As in files for Gazebo Classic: libsdformat 12 takes angles from 0.1 rad.
+TEST(Urdf, CamerasMaySeeLessThanATenthOfARadian) {
+    std::string seeing = kArm;
+    const auto sensor = [](const std::string& name, const std::string& view) {
+        return "<gazebo reference='upper'><sensor type='camera' name='" + name +
+               "'><camera><horizontal_fov>" + view +
+               "</horizontal_fov><image><width>2</width><height>2</height></image><clip><near>0.01</near>"
+               "<far>5</far></clip></camera></sensor></gazebo>\n";
+    };
+    seeing.insert(seeing.find("</robot>"), sensor("wide", "1.5") + sensor("spot", "0.0349"));
+    const Loaded loaded = load_text(seeing, "seeing.urdf");
+    ASSERT_TRUE(loaded.world) << loaded.text();
+    EXPECT_FALSE(loaded.diagnostics.has_errors()) << loaded.text();
+    std::map<std::string, double> views;
+    for (const LinkSpec& link : loaded.world->prototypes.at(0).links)
+        for (const SensorSpec& one : link.sensors)
+            views[one.name] = one.as<ColorCameraSpec>()->optics.horizontal_fov;
+    EXPECT_EQ(views, (std::map<std::string, double>{{"wide", 1.5}, {"spot", 0.0349}}));
 }
 
 TEST(Urdf, CanBeIncludedInAWorld) {
