@@ -11,7 +11,7 @@ import roboss.envs  # registers the environments
 def still():
     builder = roboss.WorldBuilder("still", gravity=[0, 0, 0])
     builder.ground()
-    builder.sphere("ball", 1.0, mass=1, pose=[0, 0, 2])
+    builder.sphere("ball", 1.0, mass=1, pose=[0, 0, 2], color=[0.9, 0.3, 0.1])
     builder.box("cube", [1, 1, 1], mass=1, pose=[0, 4, 0.5])
     builder.box("wall", [0.2, 20, 6], pose=[6, 0, 3])
     return roboss.Simulation(builder.build())
