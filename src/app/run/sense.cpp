@@ -47,7 +47,9 @@ class StatesOfTick final : public SensorSources {
     const RobotState& state_of(RobotId robot) override { return run_.states[robot.index()]; }
     Result<const CameraScene*> camera_scene() override {
         if (!cameras_) {
-            cameras_ = std::make_unique<CameraScene>(model_, run_.visuals(run_.model), run_.threads);
+            Result<std::shared_ptr<const render::VisualWorld>> visuals = run_.visuals(run_.model);
+            if (!visuals) return visuals.error();
+            cameras_ = std::make_unique<CameraScene>(model_, std::move(visuals).value(), run_.threads);
             cameras_->update(pointers_);
         }
         return cameras_.get();
