@@ -6,6 +6,9 @@
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/vector.h>
 
+#include <algorithm>
+#include <thread>
+
 #include "bindings.h"
 #include "roboss/client/control_text.h"
 #include "roboss/gateway/run_json.h"
@@ -157,6 +160,7 @@ void bind_remote(nb::module_& module) {
             options.period = period;
             options.latency = latency;
             options.patience_s = patience;
+            options.threads = std::max(1u, std::thread::hardware_concurrency());
             return connect(options);
         },
         nb::arg("simulation"), nb::arg("name"), nb::arg("period"), nb::arg("latency"), nb::arg("patience"),

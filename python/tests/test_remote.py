@@ -158,6 +158,45 @@ def test_robots_come_and_go_with_the_bits_of_a_simulation(name):
         assert remote.world.robots == roboss.Simulation(WORLD).world.robots and remote.tick == 0
 
 
+_EYES = "".join(f"""<sensor name="{kind}" type="{kind}"><pose>0.3 0 0.1 0 0.2 0</pose><camera>
+  <horizontal_fov>1.2</horizontal_fov><image><width>40</width><height>30</height></image><clip><near>0.05</near><far>20</far></clip></camera></sensor>"""
+    for kind in ("camera", "depth_camera", "rgbd_camera", "segmentation_camera", "thermal_camera"))
+
+
+def _rover(name, y, rgb):
+    return f"""<model name="{name}"><pose>0 {y} 1 0 0 0.1</pose><link name="body">
+  <inertial><mass>1</mass><inertia><ixx>.1</ixx><iyy>.1</iyy><izz>.1</izz></inertia></inertial>
+  <collision name="c"><geometry><box><size>.4 .4 .4</size></box></geometry></collision>
+  <visual name="v"><geometry><sphere><radius>.3</radius></sphere></geometry>
+  <material><diffuse>{rgb} 1</diffuse></material></visual>{_EYES}</link>
+  <plugin filename="gz-sim-label-system" name="gz::sim::systems::Label"><label>5</label></plugin></model>"""
+
+
+def test_cameras_see_over_the_network_what_they_see_in_one_process(name, tmp_path):
+    world = tmp_path / "eyes.sdf"
+    world.write_text(f"""<sdf version="1.9"><world name="eyes"><gravity>0 0 0</gravity>
+      <light name="sun" type="directional"><direction>.4 .3 -.9</direction><cast_shadows>true</cast_shadows></light>
+      <model name="wall"><static>true</static><pose>4 0 1 0 0 0</pose><link name="l"><visual name="v"><geometry>
+      <box><size>1 9 2</size></box></geometry><material><diffuse>.9 .6 .2 1</diffuse></material></visual></link></model>
+      {_rover("rover_0", -1, ".2 .8 .3")}{_rover("rover_1", 1, ".2 .3 .8")}</world></sdf>""")
+
+    local = roboss.Simulation(str(world))
+    with controller(name, world=str(world)), roboss.connect(name) as remote:
+        for sim in (local, remote):
+            sim.step(10)
+        here, there = (sim.robots("rover_*")["camera"].read() for sim in (local, remote))
+        np.testing.assert_array_equal(there, here)
+        assert len(np.unique(here)) > 20
+        for kind in ("depth_camera", "segmentation_camera", "thermal_camera"):
+            images = [sim.robots("rover_*")[kind].read() for sim in (local, remote)]
+            np.testing.assert_array_equal(images[1], images[0])
+        for sim in (local, remote):
+            sim.spawn(_rover("rover_2", 0, ".8 .2 .2"), ["rover_2"], [[1.5, 0.2, 1, 0, 0, 0, 1]])
+        here, again = (sim.robots("rover_*")["camera"].read() for sim in (local, remote))
+        np.testing.assert_array_equal(again, here)
+        assert len(again) == 3 and not np.array_equal(again[:2], there), "the new robot is seen"
+
+
 def test_waits_as_long_as_the_program_thinks(name):
     with controller(name), roboss.connect(name) as remote:
         remote.step(20)

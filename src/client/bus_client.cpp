@@ -250,7 +250,14 @@ RayScene& BusClient::ray_scene() {
 
 Result<const CameraScene*> BusClient::camera_scene() {
     if (!visuals_) return Client::camera_scene();
-    if (!cameras_) cameras_ = std::make_unique<CameraScene>(model_, visuals_(*model_), 1);
+    if (!cameras_) {
+        Result<std::shared_ptr<const render::VisualWorld>> visuals = visuals_(*model_);
+        if (!visuals) {
+            outdated_ = outdated_ || visuals.error().code == "changed-world";
+            return visuals.error();
+        }
+        cameras_ = std::make_unique<CameraScene>(model_, std::move(visuals).value(), 1);
+    }
     if (cameras_tick_ != tick_) {
         std::vector<const RobotState*> states;
         for (const RobotState& state : states_) states.push_back(&state);

@@ -71,6 +71,7 @@ bool ProgramHost::guarded(Bus& bus, const char* what, Call&& call) {
         call();
         return true;
     } catch (const std::exception& e) {
+        if (client_.outdated()) return false;  // it starts again with the new Model
         failure_ = std::string(what) + " threw: " + e.what();
     } catch (...) {
         failure_ = std::string(what) + " threw an object that is not a std::exception";

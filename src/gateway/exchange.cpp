@@ -28,7 +28,11 @@ void Exchange::set_bell(std::function<void()> bell) {
 News Exchange::take_news() {
     const std::scoped_lock lock(mutex_);
     rung_ = false;
-    News news{std::exchange(scene_, nullptr), {}, std::exchange(exact_, {}), std::exchange(lines_, {})};
+    News news{std::exchange(scene_, nullptr),
+              std::exchange(visuals_, std::nullopt),
+              {},
+              std::exchange(exact_, {}),
+              std::exchange(lines_, {})};
     for (auto& [sender, views] : std::exchange(views_, {})) news.views.push_back(std::move(views));
     return news;
 }
@@ -70,8 +74,15 @@ void Exchange::ring(std::unique_lock<std::mutex>& lock) {
 void Exchange::show(std::shared_ptr<const ShownScene> scene) {
     std::unique_lock lock(mutex_);
     scene_ = std::move(scene);
+    visuals_.reset();
     views_.clear();
     exact_.clear();
+    ring(lock);
+}
+
+void Exchange::show(ShownVisuals visuals) {
+    std::unique_lock lock(mutex_);
+    visuals_ = std::move(visuals);
     ring(lock);
 }
 

@@ -8,6 +8,7 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -25,6 +26,7 @@ struct WatchRequest {
     std::uint32_t interval_ms = 0;  // between two views; 0: none
     std::vector<RobotId> robots;    // whose exact states are wanted, ascending
     bool contacts = false, bounds = false, groups = false, profile = false;
+    bool cameras = false;  // pictures of cameras: the visuals are needed
     friend bool operator==(const WatchRequest&, const WatchRequest&) = default;
 };
 
@@ -47,6 +49,12 @@ struct ShownScene {
     ViewLayout layout;
 };
 
+/// The visuals of a scene's Model for cameras, as the Controller sends them (visuals/visual_fetch.h).
+struct ShownVisuals {
+    std::uint32_t scene = 0;
+    std::shared_ptr<const std::vector<std::uint8_t>> bytes;
+};
+
 /// A line for pages. Its text is made where it is sent from, so that the run does not pay for it.
 struct Line {
     enum class To { kPage, kAll, kStatus, kGroups, kBounds, kProfile, kTimeline };
@@ -60,6 +68,7 @@ struct Line {
 /// What the gateway's thread has not seen yet.
 struct News {
     std::shared_ptr<const ShownScene> scene;  // nullptr: as before
+    std::optional<ShownVisuals> visuals;      // none: as before
     std::vector<ViewStates> views;            // the latest of each sender
     std::vector<StateBlock> exact;            // of one tick
     std::vector<Line> lines;
@@ -81,6 +90,7 @@ class Exchange {
     WatchRequest take_watch_request();
     std::vector<PageCall> take_calls();
     void show(std::shared_ptr<const ShownScene> scene);
+    void show(ShownVisuals visuals);
     void show(const Address& sender, ViewStates views);
     void show(StateBlock exact);
     void send(Line line);
@@ -95,6 +105,7 @@ class Exchange {
     WatchRequest watch_request_;
     std::vector<PageCall> calls_;
     std::shared_ptr<const ShownScene> scene_;
+    std::optional<ShownVisuals> visuals_;
     std::map<Address, ViewStates> views_;
     std::vector<StateBlock> exact_;
     std::vector<Line> lines_;

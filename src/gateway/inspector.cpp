@@ -174,6 +174,14 @@ bool Inspector::shows(RobotId robot) const {
     return complete() || !needs_everybody(*scene_->model, robot);
 }
 
+std::vector<RobotState> Inspector::all_states() const {
+    ROBOSS_CHECK(complete(), "states of some robots are not here");
+    std::vector<RobotState> states;
+    states.reserve(states_.size());
+    for (const auto& state : states_) states.push_back(*state);
+    return states;
+}
+
 /// Asked for by sensors of robots that it shows().
 RayScene& Inspector::ray_scene() {
     ROBOSS_CHECK(complete(), "a sensor looks at robots whose states are not here");
@@ -215,7 +223,7 @@ bool Inspector::is_due(RobotId robot, std::size_t sensor) const {
 const Sample* Inspector::sample(RobotId robot, std::size_t sensor) {
     const HeldSamples::Key key(robot.value, static_cast<std::uint32_t>(sensor));
     if (scene_->model->type_of(robot).sensors[sensor].spec.kind().is_image)
-        return nullptr;  // no page shows it
+        return nullptr;  // PictureRenderer
     if (is_due(robot, sensor)) {
         Result<Sample> measured = measure(
             {*scene_->model, robot, sensor, *states_[robot.index()], tick_, scene_->file.seed, *this});

@@ -25,6 +25,9 @@ class Inspector : private SensorSources {
     /// All states of tick() are here: lasers and contacts can be had.
     bool complete() const { return known_ == states_.size(); }
 
+    /// All of them, once complete().
+    std::vector<RobotState> all_states() const;
+
     /// The JSON of "robot", of a robot that it shows().
     std::string robot(RobotId robot);
     /// The JSON of "overlay" with the contacts, once complete().

@@ -173,6 +173,26 @@ PageOrder order_of(Fields& fields) {
     return order;
 }
 
+std::vector<PictureWish> cameras_of(Fields& fields) {
+    const nlohmann::json* list = fields.find("cameras");
+    std::vector<PictureWish> wishes;
+    if (list == nullptr) return wishes;
+    if (!list->is_array() || list->size() > viewer_protocol::kWatchedCamerasMax)
+        return fields.fail("cameras", "a list of at most 16 cameras"), wishes;
+    for (const nlohmann::json& one : *list) {
+        if (!one.is_object()) return fields.fail("cameras", "a list of objects"), wishes;
+        Fields camera(one);
+        PictureWish wish;
+        wish.robot = RobotId(camera.index("robot"));
+        wish.sensor = camera.index("sensor");
+        wish.columns = camera.index("columns", 0u);
+        wish.depth = flag_of(camera, "depth");
+        if (!camera.wrong().empty()) return fields.fail("cameras", "robot, sensor, columns, depth"), wishes;
+        wishes.push_back(wish);
+    }
+    return wishes;
+}
+
 PageWatch watch_of(Fields& fields) {
     PageWatch watch;
     const nlohmann::json none = nlohmann::json::array();
@@ -194,6 +214,7 @@ PageWatch watch_of(Fields& fields) {
     watch.rate = fields.number("rate", 30.0);
     if (!(watch.rate >= 0)) fields.fail("rate", "a number from 0 on");
     watch.rate = std::min(watch.rate, static_cast<double>(viewer_protocol::kRateMax));
+    watch.cameras = cameras_of(fields);
     return watch;
 }
 

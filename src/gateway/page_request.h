@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/result.h"
+#include "gateway/camera_picture.h"
 #include "model/order.h"
 
 namespace roboss {
@@ -42,6 +43,7 @@ struct PageWatch {
     std::vector<RobotId> robots;
     bool contacts = false, bounds = false, groups = false, profile = false;
     double rate = 30;  // States a second
+    std::vector<PictureWish> cameras;
 };
 struct PageWhole {};
 /// About control of the run, among pages (roles.h).

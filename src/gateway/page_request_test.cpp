@@ -89,6 +89,16 @@ TEST(PageRequest, UnderstandsWatchesAndBoundsTheirRate) {
     EXPECT_FALSE(watch.bounds);
     EXPECT_TRUE(watch.profile);
     EXPECT_EQ(watch.rate, 60);
+    EXPECT_TRUE(watch.cameras.empty());
+}
+
+TEST(PageRequest, UnderstandsWhichCamerasAPageLooksThrough) {
+    const auto request = parse_page_request(
+        R"({"type":"watch","cameras":[{"robot":3,"sensor":1,"columns":160,"depth":true},{"robot":3,"sensor":0}]})");
+    ASSERT_TRUE(request.ok());
+    const PageWatch& watch = std::get<PageWatch>(request.value().what);
+    EXPECT_EQ(watch.cameras,
+              (std::vector<PictureWish>{{RobotId(3u), 1, true, 160}, {RobotId(3u), 0, false, 0}}));
 }
 
 TEST(PageRequest, UnderstandsTheWordsOfARequestToTheRun) {
@@ -119,6 +129,9 @@ TEST(PageRequest, RefusesWhatIsWrongByName) {
         {R"({"type":"order","robot":1,"action":"detach","other":-1})", "\"other\""},
         {R"({"type":"watch","robots":[1,2,3,4,5,6,7,8,9]})", "\"robots\""},
         {R"({"type":"watch","rate":-3})", "\"rate\""},
+        {R"({"type":"watch","cameras":7})", "\"cameras\""},
+        {R"({"type":"watch","cameras":[{"robot":1}]})", "\"cameras\""},
+        {R"({"type":"watch","cameras":[{"robot":1,"sensor":-1}]})", "\"cameras\""},
         {R"({"a":[[[[[[[[[1]]]]]]]]]})", ""},
     };
     for (const auto& [text, named] : wrongs) {

@@ -167,9 +167,17 @@ void PageSession::show_preview(std::vector<std::uint8_t> state) {
     write_next();
 }
 
+void PageSession::show_picture(const PictureWish& wish, std::vector<std::uint8_t> message) {
+    for (auto& [waiting, old] : pictures_)
+        if (waiting.key() == wish.key()) return old = std::move(message), void();
+    pictures_.emplace_back(wish, std::move(message));
+    write_next();
+}
+
 void PageSession::begin_scene() {
     shelf_ = {};
     preview_.clear();
+    pictures_.clear();
     state_wanted_ = false;
 }
 
@@ -226,8 +234,13 @@ void PageSession::write_next() {
     }
     if (!preview_.empty()) {
         state_under_way_ = std::exchange(preview_, {});
+    } else if (!pictures_.empty() && (state_was_last_ || !state_wanted_ || !state_due())) {
+        state_was_last_ = false;
+        state_under_way_ = std::move(pictures_.front().second);
+        pictures_.pop_front();
     } else {
         if (!state_wanted_ || !state_due()) return;
+        state_was_last_ = true;
         state_wanted_ = false;
         state_ms_ = steady_ms();
         state_under_way_ = core_.book().message(shelf_);

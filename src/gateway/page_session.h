@@ -42,6 +42,8 @@ class PageSession : public std::enable_shared_from_this<PageSession> {
     void send(std::string text, bool may_miss);
     /// A State message of an earlier moment; it follows the lines that wait. The newest counts.
     void show_preview(std::vector<std::uint8_t> state);
+    /// A Picture message; of those of one camera that wait the newest counts.
+    void show_picture(const PictureWish& wish, std::vector<std::uint8_t> message);
     /// The world has moved: a State is sent when it is due.
     void show_state();
     /// The scene is another one: the next State is whole.
@@ -71,6 +73,8 @@ class PageSession : public std::enable_shared_from_this<PageSession> {
     std::deque<std::string> lines_;
     std::string line_under_way_;
     std::vector<std::uint8_t> state_under_way_, preview_;
+    std::deque<std::pair<PictureWish, std::vector<std::uint8_t>>> pictures_;
+    bool state_was_last_ = false;  // States and pictures take turns
     ViewStateCache::Shelf shelf_;
     std::int64_t state_ms_ = 0, extras_ms_ = 0;
     std::uint64_t sent_bytes_ = 0;

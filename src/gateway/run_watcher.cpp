@@ -116,7 +116,7 @@ void RunWatcher::advance(Bus& bus) {
     if (outdated_) fetch(bus);
     bus.drain(*self_, inbox_);
     for (Envelope& envelope : inbox_) handle(bus, envelope);
-    if (scene_ && !outdated_) look(bus);
+    if (scene_ && !outdated_) look(bus), fetch_visuals(bus);
     poll(bus.now_ms());
     polls_.advance(bus);
     control_.advance(bus);
@@ -168,11 +168,27 @@ void RunWatcher::finish_fetch(std::int64_t now_ms) {
     scene_ =
         std::make_shared<const ShownScene>(ShownScene{++scenes_, model, std::move(file), ViewLayout(*model)});
     outdated_ = false;
+    visual_pull_.reset();
     fetch_from_ms_ = now_ms;
     sent_ms_.reset();
     drop_client();
     timeline_ = 0;  // it may be another run
     exchange_->show(scene_);
+}
+
+/// When the first page looks through a camera. They are decoded where pictures are rendered.
+void RunWatcher::fetch_visuals(Bus& bus) {
+    if (!watch_request_.cameras || visuals_ == scene_->number) return;
+    if (!visual_pull_) {
+        visual_pull_ = std::make_unique<VisualPull>();
+        visual_pull_->self = new_address_();
+    }
+    visual_pull_->pull.advance(bus, visual_pull_->self, kAgain_ms);
+    if (!visual_pull_->pull.complete()) return;
+    visuals_ = scene_->number;
+    exchange_->show(ShownVisuals{
+        visuals_, std::make_shared<const std::vector<std::uint8_t>>(visual_pull_->pull.bytes())});
+    visual_pull_.reset();
 }
 
 void RunWatcher::handle(Bus&, Envelope& envelope) {

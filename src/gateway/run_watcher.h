@@ -61,10 +61,16 @@ class RunWatcher {
         ModelPull model;
         WholePull scene{Whole::kScene};
     };
+    /// Of the visuals of scene_.
+    struct VisualPull {
+        Address self;
+        WholePull pull{Whole::kVisuals};
+    };
 
     void rest(Bus& bus);
     void fetch(Bus& bus);
     void finish_fetch(std::int64_t now_ms);
+    void fetch_visuals(Bus& bus);
     void handle(Bus& bus, Envelope& envelope);
     void look(Bus& bus);
     void poll(std::int64_t now_ms);
@@ -90,6 +96,8 @@ class RunWatcher {
     std::shared_ptr<const ShownScene> scene_;
     std::uint32_t scenes_ = 0;
     std::unique_ptr<Pulls> pulls_;
+    std::unique_ptr<VisualPull> visual_pull_;
+    std::uint32_t visuals_ = 0;  // number of the scene whose visuals are here
     bool outdated_ = true;
     std::int64_t fetch_from_ms_ = std::numeric_limits<std::int64_t>::min();  // not before, after a failure
     Tick tick_ = 0;                                                          // of the last view

@@ -1,4 +1,5 @@
 // The gateway's thread: it takes news from the run's thread and sends them to pages.
+#include <algorithm>
 #include <boost/asio/post.hpp>
 #include <chrono>
 #include <nlohmann/json.hpp>
@@ -123,6 +124,7 @@ void ServerCore::stop() {
     exchange_->set_bell({});
     io_.stop();
     thread_.join();
+    pictures_.reset();  // it may still ring: io_ does nothing any more
     pages_.clear();
 }
 
@@ -212,6 +214,8 @@ void ServerCore::watch_changed() {
         request.profile = request.profile || watch.profile;
         rate = std::max(rate, watch.rate);
         robots.insert(watch.robots.begin(), watch.robots.end());
+        for (const PictureWish& wish : watch.cameras) robots.insert(wish.robot);
+        request.cameras = request.cameras || !watch.cameras.empty();
     }
     request.anyone = request.anyone || !scene_waiters_.empty();
     request.robots.assign(robots.begin(), robots.end());
@@ -302,11 +306,13 @@ void ServerCore::take_news() {
     News news = exchange_->take_news();
     if (news.scene) {
         scene_ = news.scene;
+        visuals_.reset();
         send_scene();
     }
+    if (news.visuals && scene_ && news.visuals->scene == scene_->number) visuals_ = news.visuals;
     send_states(news);
     for (const StateBlock& block : news.exact) inspector_.take(block);
-    if (!news.exact.empty()) send_exact();
+    if (!news.exact.empty()) send_exact(), begin_pictures();
     send_lines(news.lines);
 }
 
@@ -353,6 +359,40 @@ void ServerCore::send_exact() {
         if (!page->watch().contacts || !inspector_.complete()) continue;
         if (contacts.empty()) contacts = inspector_.contacts();
         page->send(contacts, true);
+    }
+}
+
+/// Of all that pages look at through cameras, each once, in the largest size that one of them wants.
+void ServerCore::begin_pictures() {
+    if (!visuals_ || !inspector_.complete() || (pictures_ && !pictures_->is_free())) return;
+    std::vector<PictureWish> wishes;
+    for (const auto& [number, page] : pages_)
+        for (const PictureWish& wish : page->watch().cameras) {
+            const auto same = std::ranges::find(wishes, wish.key(), &PictureWish::key);
+            if (same == wishes.end())
+                wishes.push_back(wish);
+            else if (same->columns != 0 && (wish.columns == 0 || wish.columns > same->columns))
+                same->columns = wish.columns;
+        }
+    if (wishes.empty()) return;
+    if (!pictures_)
+        pictures_ =
+            std::make_unique<PictureRenderer>([this] { asio::post(io_, [this] { send_pictures(); }); });
+    pictures_->begin(
+        {scene_, visuals_->bytes, inspector_.all_states(), inspector_.tick(), std::move(wishes)});
+}
+
+void ServerCore::send_pictures() {
+    for (const PictureNews& news : pictures_->take()) {
+        if (!scene_ || news.scene != scene_->number) continue;
+        for (const auto& [number, page] : std::map(pages_)) {
+            const std::vector<PictureWish>& wishes = page->watch().cameras;
+            if (!page->open() || wishes.empty()) continue;
+            if (!news.why.empty())
+                page->send(news.why, true);
+            else if (std::ranges::find(wishes, news.wish.key(), &PictureWish::key) != wishes.end())
+                page->show_picture(news.wish, news.message);
+        }
     }
 }
 

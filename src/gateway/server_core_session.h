@@ -20,6 +20,7 @@
 #include "gateway/gateway.h"
 #include "gateway/inspector.h"
 #include "gateway/page_files.h"
+#include "gateway/picture_renderer.h"
 #include "gateway/view_state_cache.h"
 
 namespace roboss {
@@ -85,6 +86,8 @@ class ServerCore {
     void send_lines(std::vector<Line>& lines);
     void send_states(const News& news);
     void send_exact();
+    void begin_pictures();
+    void send_pictures();
     void send_roles();
     std::string roles_line(const PageSession& page) const;
     bool make_room(const std::string& address);
@@ -110,6 +113,8 @@ class ServerCore {
     ViewStateCache order_log_;
     std::string timeline_;
     Inspector inspector_;
+    std::optional<ShownVisuals> visuals_;        // of scene_
+    std::unique_ptr<PictureRenderer> pictures_;  // made when the first page looks through a camera
 
     mutable std::mutex mutex_;
     std::vector<std::string> notices_;

@@ -3,8 +3,10 @@
 
 #include <random>
 
+#include "core/float_env.h"
 #include "gateway/gateway.h"
 #include "local_view/stand_in.h"
+#include "scene/scene_codec.h"
 #include "scene/scene_file.h"
 
 namespace roboss {
@@ -18,10 +20,10 @@ Address any_address() {
     return {Role::kClient, static_cast<std::uint64_t>(device()) << 32 | device()};
 }
 
-std::vector<std::uint8_t> scene_bytes(const Model& model, const Looks& looks, std::uint64_t seed) {
+Scene scene_of(const Model& model, const Looks& looks) {
     std::vector<const World*> worlds;
     for (const auto& world : looks) worlds.push_back(world.get());
-    return encode(scene_file(make_scene(model, worlds), model, seed));
+    return make_scene(model, worlds);
 }
 
 }  // namespace
@@ -61,9 +63,15 @@ void LocalView::turn(LocalRun& run, const Looks& looks) {
     p.turned_ms = now;
     if (!p.stand_in || p.stand_in->model().hash != run.model().hash) {
         const std::vector<Address> viewers = p.stand_in ? p.stand_in->viewers() : std::vector<Address>{};
-        p.stand_in.emplace(run.shared_model(), [looks, seed = run.seed()](const Model& model) {
-            return scene_bytes(model, looks, seed);
-        });
+        p.stand_in.emplace(
+            run.shared_model(),
+            [looks, seed = run.seed()](const Model& model) {
+                return encode(scene_file(scene_of(model, looks), model, seed));
+            },
+            [looks](const Model& model) {
+                const ExactFloatScope exact;
+                return encode_scene(scene_of(model, looks), model);
+            });
         for (const Address& viewer : viewers)
             p.bus.send(kControllerAddress, viewer, ModelChanged{run.model().hash});
     }

@@ -18,9 +18,13 @@ class StandIn {
   public:
     using SceneOf = ModelServer::SceneOf;
 
-    /// Of this Model only; make another for another one. `scene` makes its bytes, at the first request.
-    StandIn(std::shared_ptr<const Model> model, SceneOf scene)
-        : model_(model), model_server_(model, std::move(scene), {}), views_(model), layout_(*model) {}
+    /// Of this Model only; make another for another one. `scene` and `visuals` make their bytes, at the
+    /// first request.
+    StandIn(std::shared_ptr<const Model> model, SceneOf scene, SceneOf visuals)
+        : model_(model),
+          model_server_(model, std::move(scene), std::move(visuals), {}),
+          views_(model),
+          layout_(*model) {}
 
     const Model& model() const { return *model_; }
     /// Who has asked for views.

@@ -85,6 +85,23 @@ Result<> write_png(const std::string& path, int columns, int rows, int channels,
                          samples.data());
 }
 
+Result<std::vector<std::uint8_t>> encode_png(int columns, int rows, int channels,
+                                             const std::vector<std::uint8_t>& samples) {
+    png_image image;
+    std::memset(&image, 0, sizeof image);
+    image.version = PNG_IMAGE_VERSION;
+    image.width = static_cast<png_uint_32>(columns), image.height = static_cast<png_uint_32>(rows);
+    image.format = channels == 3 ? PNG_FORMAT_RGB : PNG_FORMAT_GRAY;
+    image.flags = PNG_IMAGE_FLAG_FAST;
+    png_alloc_size_t size = PNG_IMAGE_PNG_SIZE_MAX(image);
+    std::vector<std::uint8_t> bytes(size);
+    if (png_image_write_to_memory(&image, bytes.data(), &size, 0, samples.data(), 0, nullptr) != 0)
+        return bytes.resize(size), bytes;
+    const std::string why = image.message;
+    png_image_free(&image);
+    return Error{"a picture cannot be packed as PNG: " + why, "give it fewer pixels", "not-packed"};
+}
+
 Result<> write_png16(const std::string& path, int columns, int rows,
                      const std::vector<std::uint16_t>& samples) {
     return write_samples(path, columns, rows, PNG_FORMAT_LINEAR_Y, samples.data());

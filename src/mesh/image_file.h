@@ -35,6 +35,10 @@ Result<> write_png(const std::string& path, int columns, int rows, int channels,
 Result<> write_png16(const std::string& path, int columns, int rows,
                      const std::vector<std::uint16_t>& samples);
 
+/// A PNG file in memory, of 8 bits a channel as above; packed quickly rather than small.
+Result<std::vector<std::uint8_t>> encode_png(int columns, int rows, int channels,
+                                             const std::vector<std::uint8_t>& samples);
+
 /// The colours of a picture of a visual. Errors: it is cut off or damaged, or of a kind that is not decoded
 /// (WebP).
 Result<ColourImage> decode_picture(const PictureSpec& picture);

@@ -41,4 +41,21 @@ Result<ColourImage> decode_jpeg(std::span<const std::uint8_t> bytes) {
     return out;
 }
 
+Result<std::vector<std::uint8_t>> encode_jpeg(int columns, int rows, int channels,
+                                              const std::vector<std::uint8_t>& samples, int quality) {
+    const std::unique_ptr<void, decltype(&tjDestroy)> encoder(tjInitCompress(), &tjDestroy);
+    const bool grey = channels == 1;
+    const int sampling = grey ? TJSAMP_GRAY : TJSAMP_420;
+    std::vector<std::uint8_t> bytes(tjBufSize(columns, rows, sampling));
+    unsigned char* place = bytes.data();
+    unsigned long size = bytes.size();
+    const int result =
+        !encoder ? -1
+                 : tjCompress2(encoder.get(), samples.data(), columns, 0, rows, grey ? TJPF_GRAY : TJPF_RGB,
+                               &place, &size, sampling, quality, TJFLAG_NOREALLOC | TJFLAG_FASTDCT);
+    if (result != 0) return Error{"a picture cannot be packed as JPEG", "give it fewer pixels", "not-packed"};
+    bytes.resize(size);
+    return bytes;
+}
+
 }  // namespace roboss

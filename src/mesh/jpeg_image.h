@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <span>
+#include <vector>
 
 #include "mesh/image_file.h"
 
@@ -12,5 +13,9 @@ namespace roboss {
 /// set: its accurate inverse cosine transform is exact. Errors: it is damaged, of four inks (CMYK), or larger
 /// than 8192 x 8192.
 Result<ColourImage> decode_jpeg(std::span<const std::uint8_t> bytes);
+
+/// A JPEG file of 8 bits a channel: 1 channel is grey, 3 are red, green and blue. `quality`: 1 to 100.
+Result<std::vector<std::uint8_t>> encode_jpeg(int columns, int rows, int channels,
+                                              const std::vector<std::uint8_t>& samples, int quality);
 
 }  // namespace roboss

@@ -6,6 +6,7 @@
 #include "bus/model_pull.h"
 #include "client/bus_client.h"
 #include "dds/dds_bus.h"
+#include "visuals/visual_fetch.h"
 
 namespace roboss {
 
@@ -99,6 +100,11 @@ Result<std::unique_ptr<RemoteRun>> RemoteRun::join(const RemoteOptions& options,
     wanted.latency = options.latency;
     auto client = std::make_unique<BusClient>(model, self, std::move(wanted));
     std::unique_ptr<RemoteRun> run(new RemoteRun(model, options, std::move(bus), std::move(client)));
+    const auto wait = [&bus = *run->bus_, go_on]() -> Result<> {
+        bus.wait(kTurn_ms);
+        return go_on() ? Result<>(Ok{}) : Result<>(interrupted());
+    };
+    run->set_visuals(fetched_visuals({*run->bus_, &client_address, wait}), options.threads);
     if (Result<> shown = run->wait_until([&] { return run->client_->observing(); }, go_on); !shown)
         return shown.error();
     run->until_ = run->tick();

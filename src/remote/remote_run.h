@@ -25,6 +25,7 @@ struct RemoteOptions {
     Tick period = 1;              ///< ticks between observations
     Tick latency = 0;             ///< ticks from an observation to the effect of its orders
     double patience_s = 10;       ///< for a Controller that is not to be found, s
+    unsigned threads = 1;         ///< that images of cameras are shared out over
 };
 
 /// See the top of the file.
@@ -34,7 +35,7 @@ class RemoteRun final : public RunAccess {
     using GoOn = std::function<bool()>;
 
     /// Joins the run and waits for its first observation. Errors: "no-controller"; "interrupted", if go_on()
-    /// said so; the run refuses the Client ("refused").
+    /// said so; the run refuses the Client ("refused"). `go_on` is kept: reading the first camera waits, too.
     static Result<std::unique_ptr<RemoteRun>> connect(const RemoteOptions& options, const GoOn& go_on);
 
     ~RemoteRun() override;

@@ -8,8 +8,8 @@ namespace roboss {
 Result<const CameraScene*> SensorSources::camera_scene() {
     return Error{
         "cameras render the visuals of a world, and only its Model, which contains none, is available here",
-        "read cameras where the world file is loaded: in Python, in `roboss sense`, or in a program of "
-        "`roboss run`",
+        "read cameras in Python, in `roboss sense`, or in a control program of `roboss run` or `roboss "
+        "client`",
         "no-look"};
 }
 

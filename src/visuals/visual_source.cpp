@@ -16,14 +16,18 @@ Result<render::Picture> decoded(const PictureSpec& spec) {
 
 }  // namespace
 
+std::shared_ptr<const render::VisualWorld> visual_world(const Scene& scene, const Model& model) {
+    const ExactFloatScope exact;
+    return std::make_shared<const render::VisualWorld>(scene, model, decoded);
+}
+
 std::shared_ptr<const render::VisualWorld> VisualSource::of(const Model& model) {
     const std::lock_guard lock(mutex_);
     if (last_ && last_->model_hash == model.hash) return last_;
     const ExactFloatScope exact;
     std::vector<const World*> worlds;
     for (const auto& world : worlds_) worlds.push_back(world.get());
-    last_ = std::make_shared<const render::VisualWorld>(make_scene(model, worlds), model, decoded);
-    return last_;
+    return last_ = visual_world(make_scene(model, worlds), model);
 }
 
 render::VisualsOf visuals_of(std::vector<std::shared_ptr<const World>> worlds) {

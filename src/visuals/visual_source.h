@@ -7,9 +7,13 @@
 #include <vector>
 
 #include "render/visuals_of.h"
+#include "scene/scene.h"
 #include "world/world.h"
 
 namespace roboss {
+
+/// What cameras see of a Scene, which must be of `model`.
+std::shared_ptr<const render::VisualWorld> visual_world(const Scene& scene, const Model& model);
 
 /// May be used by several threads at once.
 class VisualSource {

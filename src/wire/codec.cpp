@@ -457,11 +457,11 @@ const char* broken_rule(const ControlRequest& request) {
 }
 
 const char* broken_rule(const ModelRequest& request) {
-    return request.what > Whole::kScene ? "it asks for something unknown" : nullptr;
+    return request.what > Whole::kVisuals ? "it asks for something unknown" : nullptr;
 }
 
 const char* broken_rule(const ModelPart& part) {
-    if (part.what > Whole::kScene) return "it is of something unknown";
+    if (part.what > Whole::kVisuals) return "it is of something unknown";
     const bool inside = part.offset <= part.total && part.bytes.size() <= part.total - part.offset;
     return inside ? nullptr : "it goes beyond the end of the whole";
 }

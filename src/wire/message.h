@@ -194,9 +194,10 @@ struct WindowResult {
 // --- the Model
 // -----------------------------------------------------------------------------------------------------------
 
-/// What the Controller sends on request: the Model (wire/model_codec.h), or the scene, in bytes that only
-/// viewers understand (empty: the Controller has none).
-enum class Whole : std::uint8_t { kModel, kScene };
+/// What the Controller sends on request: the Model (wire/model_codec.h), the scene for viewers
+/// (scene/scene_file.h), or the visuals for cameras (scene/scene_codec.h). Of the last two no bytes: the
+/// Controller has none.
+enum class Whole : std::uint8_t { kModel, kScene, kVisuals };
 struct ModelRequest {  // anyone -> Controller, first of all: a member that joins needs no file
     Whole what = Whole::kModel;
     std::uint64_t offset = 0;

@@ -14,6 +14,8 @@ inline constexpr std::size_t kMessageBytesMax = 65536;
 inline constexpr std::size_t kAdditionBytesMax = 4194304;
 inline constexpr std::size_t kMessagesASecondMax = 200;
 inline constexpr std::size_t kWatchedRobotsMax = 8;
+inline constexpr std::size_t kWatchedCamerasMax = 16;
+inline constexpr std::size_t kPictureColumnsMax = 1280;
 inline constexpr std::size_t kRateMax = 60;
 inline constexpr std::uint8_t kFlagWhole = 1;
 inline constexpr std::uint8_t kFlagRest = 2;
@@ -35,5 +37,17 @@ inline constexpr std::size_t kStateEntryCoordinatesAt = 24;
 inline constexpr std::size_t kStateEntryBytes = 24;
 inline constexpr int kStateOrientationScale = 32767;
 inline constexpr int kStateCoordinateScale = 32767;
+
+inline constexpr std::uint8_t kPictureKind = 2;
+inline constexpr std::size_t kPictureKindAt = 0;
+inline constexpr std::size_t kPictureReservedAt = 1;
+inline constexpr std::size_t kPictureReserved2At = 2;
+inline constexpr std::size_t kPictureSceneAt = 4;
+inline constexpr std::size_t kPictureTickAt = 8;
+inline constexpr std::size_t kPictureTimeAt = 16;
+inline constexpr std::size_t kPictureRobotAt = 24;
+inline constexpr std::size_t kPictureSensorAt = 28;
+inline constexpr std::size_t kPictureAboutBytesAt = 32;
+inline constexpr std::size_t kPictureBytes = 36;
 
 }  // namespace roboss::viewer_protocol

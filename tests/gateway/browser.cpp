@@ -123,7 +123,10 @@ void Browser::read() {
         const std::string bytes = beast::buffers_to_string(buffer_.data());
         buffer_.consume(buffer_.size());
         if (socket_.got_binary()) {
-            take_state(bytes);
+            if (!bytes.empty() && bytes[0] == protocol::kPictureKind)
+                take_picture(bytes);
+            else
+                take_state(bytes);
         } else {
             Json message = Json::parse(bytes);
             const std::string type = message["type"];
@@ -135,6 +138,22 @@ void Browser::read() {
         }
         read();
     });
+}
+
+void Browser::take_picture(const std::string& bytes) {
+    damaged_ = damaged_ || bytes.size() < protocol::kPictureBytes;
+    if (damaged_) return;
+    const auto about = at<std::uint32_t>(bytes, protocol::kPictureAboutBytesAt);
+    damaged_ = bytes.size() - protocol::kPictureBytes < about;
+    if (damaged_) return;
+    Picture picture;
+    picture.tick = at<double>(bytes, protocol::kPictureTickAt);
+    picture.scene = at<std::uint32_t>(bytes, protocol::kPictureSceneAt);
+    picture.robot = at<std::uint32_t>(bytes, protocol::kPictureRobotAt);
+    picture.sensor = at<std::uint32_t>(bytes, protocol::kPictureSensorAt);
+    picture.about = Json::parse(bytes.substr(protocol::kPictureBytes, about));
+    picture.file.assign(bytes.begin() + protocol::kPictureBytes + about, bytes.end());
+    pictures_.push_back(std::move(picture));
 }
 
 void Browser::take_state(const std::string& bytes) {

@@ -100,6 +100,14 @@ class Browser {
     void know(std::vector<std::size_t> coordinates, std::uint32_t scene = 1) {
         coordinates_[scene] = std::move(coordinates);
     }
+    /// A Picture message: its header's numbers, its JSON and its file.
+    struct Picture {
+        double tick = 0;
+        std::uint32_t scene = 0, robot = 0, sensor = 0;
+        Json about;
+        std::vector<std::uint8_t> file;
+    };
+    const std::vector<Picture>& pictures() const { return pictures_; }
     const std::map<std::uint32_t, Shown>& robots() const { return robots_; }
     std::uint64_t states() const { return states_; }
     std::uint64_t state_bytes() const { return state_bytes_; }
@@ -112,6 +120,7 @@ class Browser {
   private:
     void read();
     void take_state(const std::string& bytes);
+    void take_picture(const std::string& bytes);
 
     boost::asio::io_context io_;
     boost::beast::websocket::stream<boost::beast::tcp_stream> socket_;
@@ -122,6 +131,7 @@ class Browser {
     std::map<int, std::string> answers_;
     std::map<std::uint32_t, std::vector<std::size_t>> coordinates_;  // by scene
     std::map<std::uint32_t, Shown> robots_;
+    std::vector<Picture> pictures_;
     std::uint64_t states_ = 0, state_bytes_ = 0;
     double tick_ = -1, first_tick_ = -1;
     std::uint32_t scene_ = 0;

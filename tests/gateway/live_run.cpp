@@ -49,6 +49,7 @@ SimulationOptions LiveRun::simulation_options() const {
     options.simulators = options_.simulators;
     if (!gateway_) return options;
     options.observer = [this](Bus& bus) { gateway_->advance(bus); };
+    options.controller.visuals = options_.visuals;
     options.controller.scene = [textures = options_.textures](const Model& model) {
         SceneFile file = scene_file(make_scene(model, nullptr), model, 0);
         file.textures = textures;

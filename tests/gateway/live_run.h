@@ -3,6 +3,7 @@
 #pragma once
 
 #include <atomic>
+#include <functional>
 #include <memory>
 #include <mutex>
 #include <string>
@@ -26,6 +27,8 @@ struct LiveRunOptions {
     PageRole role = PageRole::kAdminister;  // the greatest that a page gets
     std::vector<Order> orders;              // as of a file
     std::vector<TextureFile> textures;      // that the scene has
+    /// For cameras; empty: there are none.
+    std::function<std::vector<std::uint8_t>(const Model&)> visuals{};
 };
 
 class LiveRun {

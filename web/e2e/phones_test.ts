@@ -86,7 +86,7 @@ async function offer(): Promise<void> {
         (await names(wide.page)).forEach((one) => offered.add(one));
     }
     // What opens and closes panels there are the tabs of the sheets here.
-    for (const one of ["Robots panel", "Side panel", "Robot", "Cluster", "View"]) offered.delete(one);
+    for (const one of ["Robots panel", "Side panel", "Robot", "Cameras", "Cluster", "View"]) offered.delete(one);
     await wide.page.context().close();
 }
 

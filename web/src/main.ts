@@ -15,15 +15,8 @@ import { RunLink } from "./model/run_link";
 import { applyAddress, copyViewLink, keepTheme, startTheme } from "./model/view_link";
 import { ViewerState, type World } from "./model/viewer_state";
 import { LabelLayer } from "./overlays/labels";
-import { Names } from "./overlays/names";
-import { BondMarks } from "./overlays/bond_marks";
-import { FarMarks } from "./overlays/far_marks";
-import { FlowMarks } from "./overlays/flow_marks";
-import { RobotOverlays } from "./overlays/robot_overlays";
-import { RunOverlays } from "./overlays/run_overlays";
-import { SelectionMark } from "./overlays/selection_mark";
-import { Tracks } from "./overlays/tracks";
 import { pageActions, robotActions } from "./page_actions";
+import { CameraPanel } from "./panels/camera_panel";
 import { ClusterPanel } from "./panels/cluster_panel";
 import { controlDesk } from "./panels/control_desk";
 import { helpCard } from "./panels/help";
@@ -43,6 +36,7 @@ import { topBar } from "./panels/top_bar";
 import { viewActions, viewBar } from "./panels/view_bar";
 import { viewFrames } from "./panels/view_frames";
 import { viewOptions } from "./panels/view_options";
+import { pictureLayers } from "./picture_layers";
 import { SceneEditing } from "./scene_editing";
 import { h } from "./ui/dom";
 import { Colouring } from "./view/colouring";
@@ -116,6 +110,7 @@ const list = new ScenePanel(
 );
 const time = timeBar(state, run);
 const desk = controlDesk(state, run);
+const cameras = new CameraPanel(state, state.cameras, () => sheets.isNarrow() && sheets.close());
 const sideTabList: Tab[] = [
     {
         id: "inspector",
@@ -131,6 +126,7 @@ const sideTabList: Tab[] = [
             sceneryInfo(state),
         ),
     },
+    { id: "cameras", title: "Cameras", icon: "camera", content: cameras.element },
     { id: "cluster", title: "Cluster", icon: "cluster", content: new ClusterPanel(state, run).element },
     { id: "view", title: "View", icon: "eye", content: viewOptions(state) },
 ];
@@ -148,17 +144,8 @@ const sheets = new Sheets([
     { id: "plots", title: "Plots", icon: "plot", place: "dock", show: () => dock.open() },
 ]);
 
-const ring = new SelectionMark(stage, state, labels),
-    names = new Names(stage, state, labels);
-const sensors = new RobotOverlays(stage, state),
-    told = new RunOverlays(stage, state),
-    tracks = new Tracks(stage, state, labels),
-    flows = new FlowMarks(stage, state),
-    bonds = new BondMarks(stage, state),
-    far = new FarMarks(stage, state, (world, robot, out) => colouring.colourOf(world, robot, out));
 stage.overlays.add(mark.group);
-/** What is known of the present alone is not drawn into an earlier moment. */
-const present = (world: World | null) => (state.shown.value === null ? world : null);
+const marks = pictureLayers({ stage, state, labels, colouring, scene });
 const loop = new FrameLoop({
     stage,
     state,
@@ -169,22 +156,9 @@ const loop = new FrameLoop({
     times,
     hurried: () => hurried,
     interval_ms: quality === "low" ? LOW_INTERVAL_MS : 0,
-    flowing: () => flows.any,
+    flowing: () => marks.flows.any,
     effort: quality === "auto" ? new Effort((level) => stage.lower(level)) : null,
-    layers: [
-        scene.sight,
-        (world) => world !== null && colouring.update(world),
-        (world) => ring.update(world),
-        ...scene.marks,
-        (world) => flows.update(present(world)),
-        (world) => bonds.update(present(world)),
-        (world) => sensors.update(present(world)),
-        (world, now) => told.update(present(world), now),
-        (world) => state.shown.value === null && tracks.update(world),
-        (world) => names.update(world),
-        (world) => far.update(world),
-        () => labels.update(),
-    ],
+    layers: [...marks.layers, () => labels.update()],
 });
 
 function togglePanel(side: "left" | "right"): void {
@@ -236,6 +210,7 @@ view.append(
     legend(state),
     runBanner(state, run),
     desk.question,
+    cameras.over,
     said.element,
 );
 document.body.append(
@@ -287,7 +262,7 @@ const hooks = {
     stage,
     run,
     scene,
-    far,
+    far: marks.far,
     /** The robot that a click at this place of the window would meet; null: none. */
     robotAt: (left: number, top: number) => scene.robotAt(left, top),
 };

@@ -7,6 +7,8 @@ export const MESSAGE_BYTES_MAX = 65536;
 export const ADDITION_BYTES_MAX = 4194304;
 export const MESSAGES_A_SECOND_MAX = 200;
 export const WATCHED_ROBOTS_MAX = 8;
+export const WATCHED_CAMERAS_MAX = 16;
+export const PICTURE_COLUMNS_MAX = 1280;
 export const RATE_MAX = 60;
 export const FLAG_WHOLE = 1;
 export const FLAG_REST = 2;
@@ -42,6 +44,35 @@ export function readStateHeader(view: DataView): StateHeader {
         tick: view.getFloat64(8, true),
         time: view.getFloat64(16, true),
         robots: view.getUint32(24, true),
+    };
+}
+
+export const PICTURE_KIND = 2;
+export const PICTURE_BYTES = 36;
+
+export interface PictureHeader {
+    kind: number;
+    reserved: number;
+    reserved2: number;
+    scene: number;
+    tick: number;
+    time: number;
+    robot: number;
+    sensor: number;
+    about_bytes: number;
+}
+
+export function readPictureHeader(view: DataView): PictureHeader {
+    return {
+        kind: view.getUint8(0),
+        reserved: view.getUint8(1),
+        reserved2: view.getUint16(2, true),
+        scene: view.getUint32(4, true),
+        tick: view.getFloat64(8, true),
+        time: view.getFloat64(16, true),
+        robot: view.getUint32(24, true),
+        sensor: view.getUint32(28, true),
+        about_bytes: view.getUint32(32, true),
     };
 }
 

@@ -108,3 +108,21 @@ test("the step times of a Simulator that comes later start where it came, those 
         ],
     );
 });
+
+test("a contact sensor shows the sum of its forces, whatever the number of points", () => {
+    const sensor = { name: "bumper", kind: "contact", link: 0, frame: IDENTITY, units: {} },
+        shown = (forces: number[]) =>
+            readings(typeOf([], [], { joints: [JOINT], sensors: [sensor] }), {
+                ...REPORT,
+                sensors: [{ positions: forces, normals: forces, forces, others: [] }],
+            }).sensors[0].map((one) => [one.label, one.unit, one.value]);
+    assert.deepEqual(shown([0, 0, 2, 3, 0, 2]), [
+        ["bumper force", "N", 5],
+        ["bumper force x", "N", 3],
+        ["bumper force y", "N", 0],
+        ["bumper force z", "N", 4],
+        ["bumper points", "", 2],
+    ]);
+    assert.deepEqual(shown([0, 0, 7])[0], ["bumper force", "N", 7]);
+    assert.deepEqual(shown([])[0], ["bumper force", "N", 0]);
+});

@@ -12,6 +12,7 @@
 #include "app/processes/member.h"
 #include "client/plugin.h"
 #include "client/program_host.h"
+#include "visuals/visual_fetch.h"
 
 namespace roboss {
 namespace {
@@ -48,6 +49,7 @@ class ClientProcess {
         if (Result<BusClientOptions> times = client_options(program.value()->options(), *model, name); !times)
             return member_.report_error(times.error()), kBadInput;
         auto host = std::make_unique<ProgramHost>(model, self, name, std::move(program).value());
+        see(*host);
         for (;;) {
             const std::optional<int> ended = serve(*host);
             if (ended) return *ended;
@@ -56,10 +58,22 @@ class ClientProcess {
             const auto changed = member_.fetch_model(again);
             if (!changed) return interrupted() ? kSuccess : kBadInput;
             host = std::make_unique<ProgramHost>(changed, again, name, host->take_program());
+            see(*host);
         }
     }
 
   private:
+    /// Cameras of the program fetch the visuals when the first one is read.
+    void see(ProgramHost& host) {
+        const auto wait = [this]() -> Result<> {
+            if (interrupted()) return Error{"interrupted", "", "interrupted"};
+            if (!member_.wait()) return Error{"there is no Controller", "start it", "no-controller"};
+            return Ok{};
+        };
+        const auto new_address = [this] { return member_.new_address(Role::kClient); };
+        host.client().set_visuals(fetched_visuals({member_.bus(), new_address, wait}));
+    }
+
     /// The exit code; nullopt: the run has a new Model.
     std::optional<int> serve(ProgramHost& host) {
         std::int64_t leaving_ms = 0;

@@ -17,7 +17,9 @@
 #include "app/worlds/world_census.h"
 #include "client/plugin.h"
 #include "client/triggers/triggers.h"
+#include "core/float_env.h"
 #include "core/hash.h"
+#include "scene/scene_codec.h"
 #include "scene/scene_file.h"
 #include "sdf/load_world.h"
 #include "visuals/visual_source.h"
@@ -31,6 +33,13 @@ void print(const Diagnostics& diagnostics, const std::string& world) {
         if (d.severity != Severity::kNote) fmt::print(stderr, "{}\n", to_text(d));
     if (const std::size_t notes = diagnostics.count(Severity::kNote); notes > 0)
         fmt::print(stderr, "{} notes about this world; `roboss check {}` prints them\n", notes, world);
+}
+
+bool has_cameras(const Model& model) {
+    for (const RobotType& type : model.types)
+        for (const SensorInfo& sensor : type.sensors)
+            if (sensor.spec.kind().is_image) return true;
+    return false;
 }
 
 /// Ids of an earlier, killed Controller of this run may still be in use by its Simulators.
@@ -209,6 +218,7 @@ SimulationOptions Run::simulation_options(const SavedRun* from) {
     options.controller.log_ticks = journal_->log_ticks();
     options.visuals = [this](const Model& model) { return visual_world(model); };
     if (gateway_) options.observer = [gateway = gateway_.get()](Bus& bus) { gateway->advance(bus); };
+    options.controller.visuals = [this](const Model& model) { return visual_bytes(model); };
     if (!is_shown()) return options;
     options.controller.scene = [this, seed = options.controller.seed](const Model& model) {
         return encode(scene_file(make_scene(model, visuals_.of(model)), model, seed));
@@ -216,17 +226,44 @@ SimulationOptions Run::simulation_options(const SavedRun* from) {
     return options;
 }
 
-/// What cameras see. A run that is not shown has read no visuals: it reads the world file again; robots that
-/// were added since show their collision shapes.
-std::shared_ptr<const render::VisualWorld> Run::visual_world(const Model& model) {
-    if (visual_world_ && visual_world_->model_hash == model.hash) return visual_world_;
-    ModelVisuals::Worlds worlds = visuals_.worlds_of(model);
-    if (!is_shown() && o_.replay.empty()) {
+/// What describes the looks of a Model. A run that is not shown has read no visuals: it reads the world file
+/// again when the first camera asks.
+Result<ModelVisuals::Worlds> Run::seen_worlds(const Model& model) {
+    if (!is_shown() && world_model_ && !visuals_.begun()) {
         Diagnostics diagnostics;
-        if (std::optional<World> world = load_world(o_.world, {o_.paths, o_.profile, true}, diagnostics))
-            worlds = {std::make_shared<const World>(*std::move(world))};
+        std::optional<World> world = load_world(o_.world, {o_.paths, o_.profile, true}, diagnostics);
+        if (!world)
+            return Error{"the world file " + o_.world + ", which has the visuals, cannot be read any more",
+                         "put it back (`roboss check` says what is wrong with it)", "no-look"};
+        visuals_.begin(*world_model_, *std::move(world));
     }
-    return visual_world_ = visuals_of(std::move(worlds))(model);
+    return visuals_.worlds_of(model);
+}
+
+/// Whether the looks of robots that come are kept.
+bool Run::keeps_looks(const Model& with_them) {
+    if (is_shown() || visuals_.begun()) return true;
+    return has_cameras(with_them) && seen_worlds(*model_).ok();
+}
+
+/// What cameras see, of programs in this process.
+Result<std::shared_ptr<const render::VisualWorld>> Run::visual_world(const Model& model) {
+    if (visual_world_ && visual_world_->model_hash == model.hash) return visual_world_;
+    Result<ModelVisuals::Worlds> worlds = seen_worlds(model);
+    if (!worlds) return worlds.error();
+    Result<std::shared_ptr<const render::VisualWorld>> made = visuals_of(std::move(worlds).value())(model);
+    if (made) visual_world_ = made.value();
+    return made;
+}
+
+/// What cameras see, for Clients in other processes; no bytes: it is not known.
+std::vector<std::uint8_t> Run::visual_bytes(const Model& model) {
+    const Result<ModelVisuals::Worlds> worlds = seen_worlds(model);
+    if (!worlds) return notices_.push_back(worlds.error().text()), std::vector<std::uint8_t>{};
+    std::vector<const World*> seen;
+    for (const auto& world : worlds.value()) seen.push_back(world.get());
+    const ExactFloatScope exact;
+    return encode_scene(make_scene(model, seen), model);
 }
 
 Result<> Run::restart(std::shared_ptr<const Model> model, const SavedRun& from, bool back) {

@@ -68,7 +68,10 @@ class Run {
     bool is_shown() const {
         return !o_.viewer.headless || o_.is_controller || o_.sense.wanted() || o_.dataset.wanted();
     }
-    std::shared_ptr<const render::VisualWorld> visual_world(const Model& model);
+    bool keeps_looks(const Model& with_them);
+    Result<ModelVisuals::Worlds> seen_worlds(const Model& model);
+    Result<std::shared_ptr<const render::VisualWorld>> visual_world(const Model& model);
+    std::vector<std::uint8_t> visual_bytes(const Model& model);
     bool takes_picture() const { return !o_.snapshot.file.empty() || o_.sense.wanted(); }
     bool writes_to_standard_output() const;
     Summary summary(double wall_s) const;

@@ -308,7 +308,7 @@ Run::Done Run::act(const AddModels& add) {
         return Error{file.string() + " cannot be written",
                      "free some space there, and give the name of a file", "not-writable"};
     Diagnostics found;
-    std::optional<World> world = load_world(file.string(), {o_.paths, {}, is_shown()}, found);
+    std::optional<World> world = load_world(file.string(), {o_.paths, {}, true}, found);
     CompileOptions options;
     options.dt_s = model_->dt_s;
     const auto addition = world && !found.has_errors() ? compile(*world, options, found) : nullptr;
@@ -319,7 +319,8 @@ Run::Done Run::act(const AddModels& add) {
     if (places.empty()) places.push_back({add.name, add.X_WA});
     Result<ModelEdit> edit = with_models(*model_, *addition, places);
     if (!edit) return edit.error();
-    if (is_shown()) visuals_.add({*model_, *edit.value().model, *addition}, std::move(*world), places);
+    if (keeps_looks(*edit.value().model))
+        visuals_.add({*model_, *edit.value().model, *addition}, std::move(*world), places);
     return change_model(edit.value(),
                         fmt::format("{} robots of {} added",
                                     edit.value().model->robots.size() - model_->robots.size(), add.file));
@@ -353,7 +354,7 @@ Run::Done Run::act(const CopyRobots& copy) {
     }
     Result<ModelEdit> edit = with_robots(*model_, robots);
     if (!edit) return edit.error();
-    if (is_shown()) visuals_.copy(*model_, *edit.value().model, copy.copies);
+    if (keeps_looks(*edit.value().model)) visuals_.copy(*model_, *edit.value().model, copy.copies);
     return change_model(edit.value(), fmt::format("{} robots copied", robots.size()));
 }
 
@@ -370,7 +371,8 @@ Run::Done Run::act(const RestoreRobots& restore) {
     Result<ModelEdit> edit = with_robots(*model_, robots);
     if (!edit) return edit.error();
     for (const RemovedRobot& removed : found.value())
-        if (is_shown()) visuals_.bring_back(*model_, *edit.value().model, removed.worlds);
+        if (keeps_looks(*edit.value().model))
+            visuals_.bring_back(*model_, *edit.value().model, removed.worlds);
     Done done = change_model(edit.value(), fmt::format("{} robots restored", robots.size()), states);
     if (done) removed_.forget(restore.names);
     return done;

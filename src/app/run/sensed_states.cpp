@@ -35,7 +35,11 @@ StepProbe& SensedStates::step_probe() {
 }
 
 Result<const CameraScene*> SensedStates::camera_scene() {
-    if (!cameras_) cameras_ = std::make_unique<CameraScene>(model_, visuals_(*model_), threads_);
+    if (!cameras_) {
+        Result<std::shared_ptr<const render::VisualWorld>> visuals = visuals_(*model_);
+        if (!visuals) return visuals.error();
+        cameras_ = std::make_unique<CameraScene>(model_, std::move(visuals).value(), threads_);
+    }
     if (std::exchange(cameras_due_, false)) cameras_->update(states_);
     return cameras_.get();
 }

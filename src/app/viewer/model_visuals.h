@@ -20,6 +20,7 @@ namespace roboss {
 class ModelVisuals {
   public:
     void begin(const Model& model, World world);
+    bool begun() const { return !first_.empty(); }
     /// `to` was made of `from` and looks like it, unless it is known already.
     void change(const Model& from, const Model& to);
     struct Addition {

@@ -136,12 +136,13 @@ void add_snapshot_options(CLI::App& command, SnapshotOptions& o) {
     parameter("select", "name of the robot to select");
     parameter("colour", "colour robots by model, simulator, island or speed")
         ->check(list_of({"model", "simulator", "island", "speed"}));
-    parameter("show", "layers to draw: rays,tracks,compass,contacts,bounds,spheres,islands,names,collisions")
-        ->check(list_of({"rays", "tracks", "compass", "contacts", "bounds", "spheres", "islands", "names",
-                         "collisions"}));
+    parameter("show",
+              "layers to draw: rays,points,tracks,compass,contacts,bounds,spheres,islands,names,collisions")
+        ->check(list_of({"rays", "points", "tracks", "compass", "contacts", "bounds", "spheres", "islands",
+                         "names", "collisions"}));
     parameter("theme", "theme of the page: light or dark")->check(list_of({"light", "dark"}));
-    parameter("panel", "show the panels, with this one open: inspector, cluster or view")
-        ->check(list_of({"inspector", "cluster", "view"}));
+    parameter("panel", "show the panels, with this one open: inspector, cameras, cluster or view")
+        ->check(list_of({"inspector", "cameras", "cluster", "view"}));
     command.add_option("--width", o.width, "width of the picture, pixels")
         ->check(whole_number(64, 7680))
         ->capture_default_str()

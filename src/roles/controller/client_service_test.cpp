@@ -55,7 +55,7 @@ class Clients : public testing::Test {
     Recorder recorder{nullptr, 0, 0, {}};
     StateDirectory directory{1, 0};
     RunNotices notices;
-    ModelServer model_server{sim.model, nullptr, {5}};
+    ModelServer model_server{sim.model, nullptr, nullptr, {5}};
     ClientServiceOptions options;
     std::optional<ClientService> service_;
 };

@@ -52,7 +52,7 @@ Controller::Controller(std::shared_ptr<const Model> model, const ControllerOptio
                        StartingPoint start)
     : model_(std::move(model)),
       options_(options),
-      model_server_(model_, options.scene, options.before.models),
+      model_server_(model_, options.scene, options.visuals, options.before.models),
       control_(options.before.control),
       roster_(options.before.first_id),
       recorder_(options.log, options.log_ticks, std::max(start.tick, start.logged_until),

@@ -42,6 +42,8 @@ struct ControllerOptions {
     } before;                               ///< none: it is the first
     /// Makes the scene, in bytes for viewers; called when the first viewer requests it.
     ModelServer::SceneOf scene;
+    /// The same of the visuals for cameras of Clients in other processes.
+    ModelServer::SceneOf visuals;
     RunLog* log = nullptr;  // outlives the Controller; null: nothing is logged
     Tick log_ticks = 0;     // checkpoints for the log at multiples of so many ticks; 0: none
 };

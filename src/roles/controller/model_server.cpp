@@ -13,9 +13,12 @@ namespace {
 constexpr std::uint64_t kPartBytes = 1u << 20;
 }
 
-ModelServer::ModelServer(std::shared_ptr<const Model> model, SceneOf scene,
+ModelServer::ModelServer(std::shared_ptr<const Model> model, SceneOf scene, SceneOf visuals,
                          std::vector<std::uint64_t> earlier)
-    : model_(std::move(model)), scene_(std::move(scene)), earlier_(std::move(earlier)) {
+    : model_(std::move(model)),
+      scene_(std::move(scene)),
+      visuals_(std::move(visuals)),
+      earlier_(std::move(earlier)) {
     ROBOSS_CHECK(model_ != nullptr, "a ModelServer needs a Model");
 }
 
@@ -32,14 +35,15 @@ std::vector<std::uint64_t> ModelServer::hashes() const {
 }
 
 const ModelServer::WholeBytes& ModelServer::whole(Whole what) {
-    std::optional<WholeBytes>& kept = what == Whole::kModel ? model_bytes_ : scene_bytes_;
-    if (!kept) {
-        kept = WholeBytes{};
-        if (what == Whole::kModel) kept->bytes = encode_model(*model_);
-        if (what == Whole::kScene && scene_) kept->bytes = scene_(*model_);
-        kept->hash = hash_of_bytes(kept->bytes);
+    const auto [kept, is_new] = bytes_.try_emplace(what);
+    if (is_new) {
+        WholeBytes& made = kept->second;
+        if (what == Whole::kModel) made.bytes = encode_model(*model_);
+        if (what == Whole::kScene && scene_) made.bytes = scene_(*model_);
+        if (what == Whole::kVisuals && visuals_) made.bytes = visuals_(*model_);
+        made.hash = hash_of_bytes(made.bytes);
     }
-    return *kept;
+    return kept->second;
 }
 
 ModelPart ModelServer::part(const ModelRequest& request) {

@@ -1,12 +1,12 @@
-// ModelServer: serves the run's encoded Model and the scene for viewers, both of any size, in parts. It also
-// knows the Models that the run had before (a rewind may change the world), so that members that still have
-// one of these fetch the current Model instead of being refused.
+// ModelServer: serves the run's encoded Model, the scene for viewers and the visuals for cameras, all of any
+// size, in parts. It also knows the Models that the run had before (a rewind may change the world), so that
+// members that still have one of these fetch the current Model instead of being refused.
 #pragma once
 
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <memory>
-#include <optional>
 #include <vector>
 
 #include "wire/message.h"
@@ -17,9 +17,10 @@ class ModelServer {
   public:
     using SceneOf = std::function<std::vector<std::uint8_t>(const Model&)>;
 
-    /// `scene`: makes the scene's bytes, called at the first request; may be empty. `earlier`: hashes of
-    /// earlier Models of the run.
-    ModelServer(std::shared_ptr<const Model> model, SceneOf scene, std::vector<std::uint64_t> earlier);
+    /// `scene` and `visuals` make the bytes, and are called at the first request; they may be empty.
+    /// `earlier`: hashes of earlier Models of the run.
+    ModelServer(std::shared_ptr<const Model> model, SceneOf scene, SceneOf visuals,
+                std::vector<std::uint64_t> earlier);
 
     /// The part that this request asks for; empty from the end of the bytes on.
     ModelPart part(const ModelRequest& request);
@@ -36,9 +37,9 @@ class ModelServer {
     const WholeBytes& whole(Whole what);
 
     std::shared_ptr<const Model> model_;
-    SceneOf scene_;
+    SceneOf scene_, visuals_;
     std::vector<std::uint64_t> earlier_;
-    std::optional<WholeBytes> model_bytes_, scene_bytes_;  // made at the first request
+    std::map<Whole, WholeBytes> bytes_;  // made at the first request
 };
 
 }  // namespace roboss

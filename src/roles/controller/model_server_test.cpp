@@ -36,7 +36,7 @@ TEST(ModelServer, ServesASceneOfSeveralPartsAndMakesItOnce) {
     std::vector<std::uint8_t> scene((1u << 21) + 12'345);
     std::iota(scene.begin(), scene.end(), std::uint8_t{0});
     int made = 0;
-    ModelServer server(empty_model(1), [&](const Model&) { return ++made, scene; }, {});
+    ModelServer server(empty_model(1), [&](const Model&) { return ++made, scene; }, nullptr, {});
     EXPECT_EQ(fetch(server, Whole::kModel), encode_model(*empty_model(1)));
     EXPECT_EQ(made, 0) << "nobody asked for the scene";
     EXPECT_EQ(fetch(server, Whole::kScene), scene);
@@ -45,7 +45,7 @@ TEST(ModelServer, ServesASceneOfSeveralPartsAndMakesItOnce) {
 }
 
 TEST(ModelServer, AnswersARequestBeyondTheEndWithAnEmptyPart) {
-    ModelServer server(empty_model(1), nullptr, {});
+    ModelServer server(empty_model(1), nullptr, nullptr, {});
     EXPECT_EQ(server.part({Whole::kScene, 0}).total, 0u) << "no scene";
     const ModelPart part = server.part({Whole::kModel, ~std::uint64_t{0}});
     EXPECT_TRUE(part.bytes.empty());
@@ -53,7 +53,7 @@ TEST(ModelServer, AnswersARequestBeyondTheEndWithAnEmptyPart) {
 }
 
 TEST(ModelServer, KnowsEarlierModelsAndNeverTakesTheCurrentOneForEarlier) {
-    const ModelServer server(empty_model(7), nullptr, {5, 7});
+    const ModelServer server(empty_model(7), nullptr, nullptr, {5, 7});
     EXPECT_TRUE(server.is_earlier(5));
     EXPECT_FALSE(server.is_earlier(7)) << "an earlier Model of the run is the current one again";
     EXPECT_FALSE(server.is_earlier(6));

@@ -97,7 +97,7 @@ export function perceived(told: SensorReport): { name: string; value: number | n
     return null;
 }
 
-function sensorReadings({ name, units }: SensorInfo, told: SensorReport): Reading[] {
+function sensorReadings({ name, kind, units }: SensorInfo, told: SensorReport): Reading[] {
     const found: Reading[] = [],
         add = (field: string, unit: string, value: unknown) =>
             found.push({
@@ -107,6 +107,14 @@ function sensorReadings({ name, units }: SensorInfo, told: SensorReport): Readin
                 value: typeof value === "number" ? value : null,
             });
     if (perceived(told) !== null) return found;
+    if (kind === "contact") {
+        const forces = Array.isArray(told.forces) ? told.forces.map(Number) : null,
+            sum = AXES.map((_, k) => forces?.reduce((all, value, at) => (at % 3 === k ? all + value : all), 0) ?? null);
+        add("force", "N", forces === null ? null : Math.hypot(...sum.map(Number)));
+        AXES.forEach((axis, k) => add(`force ${axis}`, "N", sum[k]));
+        add("points", "", forces === null ? null : forces.length / 3);
+        return found;
+    }
     if (Array.isArray(told.ranges)) {
         const met = told.ranges.filter((range): range is number => typeof range === "number" && Number.isFinite(range));
         add("nearest", "m", met.length > 0 ? Math.min(...met) : null);

@@ -2,8 +2,9 @@
 // at into the one `watch` message that the gateway keeps.
 import { Connection, type LinkState } from "../wire/connection";
 import type { Probe } from "../wire/probe";
-import { RATE_MAX, VERSION, WATCHED_ROBOTS_MAX } from "../protocol";
-import type { Answer, Incoming, OrderAction } from "../wire/messages";
+import { RATE_MAX, VERSION, WATCHED_CAMERAS_MAX, WATCHED_ROBOTS_MAX } from "../protocol";
+import type { Answer, Incoming, OrderAction, Watch } from "../wire/messages";
+import { isPicture, readPicture } from "../wire/picture";
 import { loadScene } from "../wire/scene_source";
 import { readHeader, readState } from "../wire/state";
 import { PlayClock } from "./play_clock";
@@ -25,7 +26,7 @@ export class RunLink {
     constructor(private readonly state: ViewerState) {
         this.connection = new Connection({
             state: (link, probe) => this.onLink(link, probe),
-            binary: (data) => this.onState(data),
+            binary: (data) => (isPicture(data) ? this.onPicture(data) : this.onState(data)),
             message: (message) => this.onMessage(message),
         });
         this.preview = new Preview(state, this.connection, (text) => this.notice.set({ text, bad: true }));
@@ -36,6 +37,7 @@ export class RunLink {
             state.pinned,
             state.world,
             state.wantsProfile,
+            state.cameras.wishes,
         ])
             (signal as Signal<unknown>).follow(() => this.sendWatch());
     }
@@ -113,6 +115,9 @@ export class RunLink {
             case "timeline":
                 this.state.timeline.set(message);
                 break;
+            case "no_pictures":
+                if (message.scene === this.sceneNumber()) this.state.cameras.trouble.set(message.text);
+                break;
             case "notice":
                 this.notice.set({ text: message.text, bad: false });
                 break;
@@ -143,6 +148,7 @@ export class RunLink {
             this.state.attaching.set(null);
             this.state.selected.set(null);
             this.state.sight.begin(loaded.scene.world);
+            this.state.cameras.clear();
             this.state.world.set(world);
             if (before !== undefined && selected !== null) {
                 this.state.selected.set(world.fleet.find(before.name(selected)) ?? null);
@@ -176,6 +182,28 @@ export class RunLink {
         }
     }
 
+    private onPicture(data: ArrayBuffer): void {
+        try {
+            const picture = readPicture(data);
+            if (picture.scene === this.sceneNumber()) void this.state.cameras.take(picture).catch(() => undefined);
+        } catch (error) {
+            this.notice.set({ text: String(error), bad: true });
+        }
+    }
+
+    /** Of RGB-D cameras the gateway wants to know which picture; the others have one. */
+    private cameras(): Watch["cameras"] {
+        const fleet = this.state.world.value?.fleet;
+        return this.state.cameras.wishes.value
+            .slice(0, WATCHED_CAMERAS_MAX)
+            .map(({ robot, sensor, shows, columns }) => ({
+                robot,
+                sensor,
+                columns,
+                depth: shows === "depth" && fleet?.type(robot).sensors[sensor]?.kind === "rgbd camera",
+            }));
+    }
+
     private sendWatch(): void {
         if (this.state.world.value === null || this.state.link.value.state !== "open") return;
         const overlays: string[] = [],
@@ -186,7 +214,9 @@ export class RunLink {
         if (this.state.wantsProfile.value) overlays.push("profile");
         const robots = new Set<number>(this.state.pinned.value);
         if (this.state.selected.value !== null) robots.add(this.state.selected.value);
-        const watch = { robots: [...robots].slice(0, WATCHED_ROBOTS_MAX), overlays, rate: RATE_MAX };
+        const watch: Watch = { robots: [...robots].slice(0, WATCHED_ROBOTS_MAX), overlays, rate: RATE_MAX },
+            cameras = this.cameras();
+        if (cameras !== undefined && cameras.length > 0) watch.cameras = cameras;
         const text = JSON.stringify(watch);
         if (text === this.lastWatch) return;
         this.lastWatch = text;

@@ -5,6 +5,7 @@ import type { StepProfile } from "../wire/profile";
 import type { LinkState } from "../wire/connection";
 import type { Probe } from "../wire/probe";
 import type { LoadedScene } from "../wire/scene_source";
+import { Cameras } from "./cameras";
 import { Fleet } from "./fleet";
 import { History } from "./history";
 import type { Extras } from "../wire/onboard";
@@ -38,6 +39,7 @@ export type CameraMode = "orbit" | "fly" | "follow" | "chase";
 export type Theme = "light" | "dark";
 export const OVERLAYS = [
     "rays",
+    "points",
     "tracks",
     "compass",
     "contacts",
@@ -102,6 +104,8 @@ export class ViewerState {
     readonly adding = new Signal<Adding | null>(null);
     /** What is hidden and what is locked. */
     readonly sight = new Sight(storage());
+    /** Pictures of robots' cameras. */
+    readonly cameras = new Cameras();
     readonly colourBy = new Signal<ColourBy>("model");
     /** The colour of each robot where the colour mode gives it one; null: its own. */
     readonly dots = new Signal<((robot: number) => string) | null>(null);
@@ -117,7 +121,21 @@ export class ViewerState {
     /** What the picture shows of it beside the robots: a change is drawn. */
     get shows(): readonly { follow(act: () => void): unknown }[] {
         const { selected, overlays, colourBy, theme, report, overlayReport, groups, world, tool, extras, shown } = this;
-        return [selected, overlays, colourBy, theme, report, overlayReport, groups, world, tool, extras, shown];
+        const pictures = this.cameras.taken;
+        return [
+            selected,
+            overlays,
+            colourBy,
+            theme,
+            report,
+            overlayReport,
+            groups,
+            world,
+            tool,
+            extras,
+            shown,
+            pictures,
+        ];
     }
 
     toggle(overlay: Overlay, on = !this.overlays.value.has(overlay)): void {

@@ -37,9 +37,10 @@ export class RobotOverlays {
             report = this.state.report.value,
             on = this.state.overlays.value;
         const ready = world !== null && robot !== null && report !== null && report.robot === robot;
-        this.rays.lines.visible = this.hits.visible = ready && on.has("rays");
+        this.rays.lines.visible = ready && on.has("rays");
+        this.hits.visible = ready && (on.has("rays") || on.has("points"));
         this.dial.lines.visible = world !== null && robot !== null && on.has("compass");
-        if (ready && on.has("rays")) this.drawRays(world, robot);
+        if (this.hits.visible && world !== null && robot !== null) this.drawRays(world, robot);
         if (world !== null && robot !== null && on.has("compass")) this.drawDial(world, robot);
     }
 

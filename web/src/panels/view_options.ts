@@ -12,6 +12,7 @@ export const COLOURS: [ColourBy, string, string][] = [
 ];
 export const WORDS: Record<Overlay, [string, string]> = {
     rays: ["Laser rays", `of the selected robot; at most ${RAYS_MAX} rays and ${HITS_MAX} points a sensor`],
+    points: ["Point clouds", "what lidars, depth and RGB-D cameras of the selected robot measure"],
     tracks: ["Tracks", "where robots drove; the selected one: GPS, odometer"],
     compass: ["Compass", "north and heading of the selected robot"],
     contacts: ["Contact forces", "arrows, 1 m for 100 N"],

@@ -23,6 +23,7 @@ export const ICONS = {
         ],
     ],
     push: [["M2.5 8h9M8.5 4.5 12 8l-3.5 3.5M14 3v10", false]],
+    expand: [["M9.5 2.5h4v4M13.5 2.5 9 7M6.5 13.5h-4v-4M2.5 13.5 7 9", false]],
     camera: [
         ["M2 5h3l1.2-1.8h3.6L11 5h3v8H2z", false],
         ["M8 11.2a2.4 2.4 0 1 0 0-4.8 2.4 2.4 0 0 0 0 4.8", false],

@@ -69,6 +69,9 @@ export interface SensorInfo {
     vertical_max_angle?: number;
     range_min?: number;
     range_max?: number;
+    /** Of a camera, pixels. */
+    width?: number;
+    height?: number;
 }
 
 export interface TypeInfo {
@@ -261,6 +264,7 @@ export type Incoming =
     | Roles
     | { type: "over"; reason: string }
     | Timeline
+    | { type: "no_pictures"; scene: number; text: string; code: string }
     | { type: "notice"; text: string };
 
 /** A spring from a point of a link (in its frame) to a point of the world; max_force 0 lets go. */
@@ -285,4 +289,5 @@ export interface Watch {
     robots: number[];
     overlays: string[];
     rate: number;
+    cameras?: { robot: number; sensor: number; columns: number; depth: boolean }[];
 }
