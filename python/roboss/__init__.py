@@ -23,6 +23,7 @@ from .errors import (ArgumentError, ClusterError, JournalError, OrderError, Robo
 from .journal import Journal
 from .kinematics import Follower, IKSolution, RobotModel
 from .mujoco_order import MujocoOrder
+from .radio import Message, Radio
 from .remote import RemoteSimulation, connect
 from .robots import Robots
 from .sensors import Sensor
@@ -35,8 +36,8 @@ from .world import World, example, load
 __version__ = "0.1.0"
 __all__ = [
     "ArgumentError", "Batch", "CONTACT", "Camera", "CartesianTrajectory", "ClusterError", "Diagnostic", "Follower",
-    "IKSolution", "JointTrajectory", "Journal", "JournalError", "ModelBuilder", "MujocoOrder", "OrderError", "RobossError",
-    "RemoteSimulation", "RobotCameras", "RobotModel", "Robots", "Save", "SaveError", "Sensor", "SensorError", "Simulation",
-    "StateError", "UnknownNameError", "View", "ViewError", "World", "WorldBuilder", "WorldError", "WorldWarning", "connect",
-    "ctraj", "example", "jtraj", "load",
+    "IKSolution", "JointTrajectory", "Journal", "JournalError", "Message", "ModelBuilder", "MujocoOrder", "OrderError",
+    "Radio", "RobossError", "RemoteSimulation", "RobotCameras", "RobotModel", "Robots", "Save", "SaveError", "Sensor",
+    "SensorError", "Simulation", "StateError", "UnknownNameError", "View", "ViewError", "World", "WorldBuilder",
+    "WorldError", "WorldWarning", "connect", "ctraj", "example", "jtraj", "load",
 ]

@@ -11,6 +11,7 @@ from .camera import RobotCameras
 from .errors import ArgumentError, StateError
 from .mujoco_order import MujocoOrder
 from .names import filled, index_of, numbers, unknown
+from .radio import Radio
 from .sensors import Sensor
 
 if TYPE_CHECKING:
@@ -313,7 +314,9 @@ class Robots:
         if isinstance(key, str):
             facts = self._facts
             names = [name for name, _, _ in facts.sensors]
-            return Sensor(self, index_of("sensor", key, names, f" of '{facts.name}'"), *facts.sensors[names.index(key)])
+            number = index_of("sensor", key, names, f" of '{facts.name}'")
+            kind = Radio if facts.sensors[number][1] == "radio" else Sensor
+            return kind(self, number, *facts.sensors[number])
         chosen = np.atleast_1d(np.asarray(self.ids)[key])
         if self._simulations is not self.simulation._simulations:
             raise StateError("robots were spawned or removed since these were asked for",

@@ -8,6 +8,7 @@
 #include <variant>
 
 #include "bindings.h"
+#include "roboss/model/addressee.h"
 #include "simulation.h"
 
 namespace nb = nanobind;
@@ -137,6 +138,68 @@ nb::list read(const Simulations& simulations, const std::vector<std::uint32_t>& 
     return result;
 }
 
+/// Sends a message by a radio of each robot: payloads[i] by row i, simulation by simulation, `to`: names of
+/// the addressees, "" for all who hear it. All of them, or, if one is refused, none.
+void transmit(const Simulations& simulations, const std::vector<std::uint32_t>& robots, std::size_t sensor,
+              const std::vector<nb::bytes>& payloads, const std::vector<std::string>& to) {
+    std::vector<std::vector<Order>> orders(simulations.size());
+    for (std::size_t s = 0; s < simulations.size(); ++s) {
+        const Model& model = simulations[s]->access().model();
+        for (std::size_t r = 0; r < robots.size(); ++r) {
+            const std::size_t row = s * robots.size() + r;
+            const RobotId robot(robots[r]);
+            const Result<std::uint32_t> radio = radio_number(model, robot, sensor);
+            if (!radio) raise("SensorError", radio.error());
+            Transmit message{radio.value(), {}, {}};
+            if (!to[row].empty()) {
+                const auto found = find_addressee(model, to[row]);
+                if (!found)
+                    raise("UnknownNameError", {"no robot has the name or the address '" + to[row] + "'",
+                                               "World.robots has the names", "no-robot"});
+                message.to = *found;
+            }
+            const auto* bytes = reinterpret_cast<const std::uint8_t*>(payloads[row].c_str());
+            message.payload.assign(bytes, bytes + payloads[row].size());
+            Order order;
+            order.robot = robot, order.action = std::move(message);
+            order.apply_at = simulations[s]->access().tick();
+            if (const Result<> checked = check_order(model, order); !checked)
+                raise("OrderError", checked.error());
+            orders[s].push_back(std::move(order));
+        }
+    }
+    for (std::size_t s = 0; s < simulations.size(); ++s)
+        if (const Result<> given = simulations[s]->access().order(std::move(orders[s])); !given)
+            raise("OrderError", given.error());
+}
+
+/// For each robot, simulation by simulation, the messages that its radio received since the last call:
+/// (sender, addressee or "", sent at s, arrived at s, channel, strength dBm, payload).
+nb::list received(const Simulations& simulations, const std::vector<std::uint32_t>& robots,
+                  std::size_t sensor) {
+    using Messages = Result<std::vector<RadioMessage>>;
+    std::vector<std::vector<Messages>> all(simulations.size());
+    for_each_run(simulations, [&](std::size_t i, RunAccess& run) {
+        for (const std::uint32_t robot : robots) all[i].push_back(run.received(RobotId(robot), sensor));
+    });
+    nb::list result;
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        const Model& model = simulations[i]->access().model();
+        for (const Messages& messages : all[i]) {
+            if (!messages) raise("SensorError", messages.error());
+            nb::list row;
+            for (const RadioMessage& m : messages.value())
+                row.append(nb::make_tuple(
+                    model.robots[m.from.index()].name, m.to.valid() ? model.robots[m.to.index()].name : "",
+                    static_cast<double>(m.sent) * model.dt_s, static_cast<double>(m.arrived) * model.dt_s,
+                    m.channel, m.strength_dBm,
+                    nb::bytes(reinterpret_cast<const char*>(m.payload.data()), m.payload.size())));
+            result.append(std::move(row));
+        }
+    }
+    return result;
+}
+
 /// BoxCameraSpec::type; "": it is no such camera.
 std::string box_type(const std::shared_ptr<Simulation>& simulation, std::uint32_t robot, std::size_t sensor) {
     const RobotType& type = simulation->access().model().type_of(RobotId(robot));
@@ -148,6 +211,9 @@ std::string box_type(const std::shared_ptr<Simulation>& simulation, std::uint32_
 
 void bind_readings(nb::module_& module) {
     module.def("read", &read, nb::arg("simulations"), nb::arg("robots"), nb::arg("sensor"));
+    module.def("transmit", &transmit, nb::arg("simulations"), nb::arg("robots"), nb::arg("sensor"),
+               nb::arg("payloads"), nb::arg("to"));
+    module.def("received", &received, nb::arg("simulations"), nb::arg("robots"), nb::arg("sensor"));
     module.def("box_type", &box_type, nb::arg("simulation"), nb::arg("robot"), nb::arg("sensor"));
 }
 

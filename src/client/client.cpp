@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "core/similar.h"
+#include "model/addressee.h"
 #include "model/topics.h"
 
 namespace roboss {
@@ -225,6 +226,37 @@ OrderResult Client::detach(const RobotRef& robot, const RobotRef& other) {
     return order(id_for_order(robot), Detach{id_for_order(other)});
 }
 
+OrderResult Client::transmit(const RobotRef& robot, const SensorRef& radio, std::vector<std::uint8_t> payload,
+                             std::optional<RobotRef> to) {
+    const RobotId id = this->robot(robot);
+    const Result<std::uint32_t> number = radio_number(model(), id, sensor(id, radio));
+    if (!number) return report_refusal(number.error());
+    Transmit message{number.value(), {}, std::move(payload)};
+    if (to && to->named()) {
+        const std::string name(to->name());
+        if (const auto found = find_addressee(model(), name))
+            message.to = *found;
+        else
+            (void)robot_named(name);  // throws, with the names that there are
+    } else if (to) {
+        message.to = to->id();
+    }
+    return order(id, std::move(message));
+}
+
+OrderResult Client::transmit(const RobotRef& robot, const SensorRef& radio, std::string_view payload,
+                             std::optional<RobotRef> to) {
+    return transmit(robot, radio, std::vector<std::uint8_t>(payload.begin(), payload.end()), to);
+}
+
+std::vector<RadioMessage> Client::received(const RobotRef& robot, const SensorRef& radio) {
+    const RobotId id = this->robot(robot);
+    Result<std::vector<RadioMessage>> messages =
+        receive({model(), id, sensor(id, radio), state(id), tick(), seed(), *this, observed_before()});
+    if (!messages) refuse(messages.error().message, messages.error().remedy);
+    return std::move(messages).value();
+}
+
 /// Ids go on to the check of the order, which refuses one that does not exist.
 RobotId Client::id_for_order(const RobotRef& robot) const {
     return robot.named() ? this->robot(robot) : robot.id();
@@ -235,7 +267,8 @@ LinkId Client::link_for_order(RobotId robot, const LinkRef& link) const {
 }
 
 Sample Client::measure(RobotId robot, std::size_t sensor) {
-    Result<Sample> measured = roboss::measure({model(), robot, sensor, state(robot), tick(), seed(), *this});
+    Result<Sample> measured =
+        roboss::measure({model(), robot, sensor, state(robot), tick(), seed(), *this, observed_before()});
     if (!measured) refuse(measured.error().message, measured.error().remedy);
     return std::move(measured).value();
 }
@@ -251,7 +284,7 @@ Sample Client::sample(RobotId robot, const SensorRef& wanted, const SensorKind& 
     const HeldSamples::Key key{robot.value, static_cast<std::uint32_t>(sensor)};
     if (const Sample* held = samples_.find(key)) return *held;
     Sample fresh = measure(robot, sensor);
-    const bool holds = spec.update_rate_hz > 0 && !spec.kind().is_image;
+    const bool holds = spec.update_rate_hz > 0 && spec.kind().is_held();
     return holds ? samples_.put(key, std::move(fresh)) : fresh;
 }
 

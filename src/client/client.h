@@ -8,6 +8,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <unordered_map>
 #include <vector>
 
@@ -104,6 +105,13 @@ class Client : private SensorSources {
     /// Attaches a link of `other` to a link of the robot, as they stand (model/order.h, Attach).
     OrderResult attach(const RobotRef& robot, const LinkRef& link, const RobotRef& other,
                        const LinkRef& other_link);
+    /// Sends a message by a radio, at the tick at which orders of this observation take effect
+    /// (docs/radio.md). `to`: the robot that it is for; none: everybody who hears it.
+    OrderResult transmit(const RobotRef& robot, const SensorRef& radio, std::vector<std::uint8_t> payload,
+                         std::optional<RobotRef> to = {});
+    /// The same with the characters of a text.
+    OrderResult transmit(const RobotRef& robot, const SensorRef& radio, std::string_view payload,
+                         std::optional<RobotRef> to = {});
     /// Loosens the bonds by which the robot holds `other`.
     OrderResult detach(const RobotRef& robot, const RobotRef& other);
     /// Any of the kinds above as data (model/order.h). An Error says why check_order() refuses it.
@@ -150,6 +158,11 @@ class Client : private SensorSources {
     ImuReading imu(const RobotRef& robot, const SensorRef& sensor) {
         return reading<ImuReading>(robot, sensor);
     }
+
+    /// The messages that a radio received since the observation before this one, by time of arrival. A
+    /// program that asks at each observation gets each message once.
+    /// @throws std::invalid_argument as reading().
+    std::vector<RadioMessage> received(const RobotRef& robot, const SensorRef& radio);
 
     // --- forces, of the tick that begins now as long as no order takes effect at it (physics/probe.h). The
     // first question of a tick costs about as much as a step of the whole world.

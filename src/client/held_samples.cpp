@@ -62,10 +62,10 @@ Sample read_sample(Reader& a, std::uint32_t kind) {
     const bool known = make_sample(kind, sample);
     const bool held =
         known &&
-        std::visit([]<class Reading>(const Reading&) { return !kind_of_reading<Reading>().is_image; },
+        std::visit([]<class Reading>(const Reading&) { return kind_of_reading<Reading>().is_held(); },
                    sample);
     if (!held) {
-        a.fail(known ? "a sample is an image, which is never held" : "a sample is of no known kind");
+        a.fail(known ? "a sample is of a kind that is never held" : "a sample is of no known kind");
         return sample;
     }
     visit_fields(sample, FieldArchive<Reader>{a});

@@ -5,7 +5,8 @@
 
 namespace roboss {
 
-inline constexpr std::int64_t kJournalFormat = 6;        // 5: bookmarks, pruning; 6: orders of joint states
+inline constexpr std::int64_t kJournalFormat =
+    7;  // 5: bookmarks, pruning; 6: orders of joint states; 7: radio
 inline constexpr std::int64_t kOldestJournalFormat = 4;  // that is read, and brought up to date when written
 inline constexpr std::int64_t kFirstPrunableFormat = 5;
 /// Key in `meta`: hash of the Model of a root branch that was pruned.

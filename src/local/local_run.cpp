@@ -49,6 +49,7 @@ void LocalRun::reset(std::optional<std::uint64_t> seed) {
     for (std::size_t r = 0; r < states_.size(); ++r) states_[r] = initial_state(model(), RobotId(r));
     stepper_.forget();
     changed();
+    forget_received();
 }
 
 Result<> LocalRun::step(Tick ticks) {
@@ -115,6 +116,7 @@ Result<> LocalRun::restore(const LocalSave& save) {
     orders_ = save.orders;
     stepper_.forget();
     changed();
+    forget_received();
     return Ok{};
 }
 
@@ -126,6 +128,7 @@ Result<std::unique_ptr<LocalRun>> LocalRun::edited(const ModelEdit& edit) const 
     LocalRun& run = *made.value();
     std::ranges::move(carry_over(edit, states_), run.states_.begin());
     run.tick_ = tick_, run.given_ = given_;
+    run.forget_received();
     run.orders_ = orders_;
     std::erase_if(run.orders_, [&](Order& order) { return !carry_over(edit, order); });
     return made;

@@ -1,6 +1,8 @@
 // See run_access.h.
 #include "local/run_access.h"
 
+#include <utility>
+
 #include "render/view.h"
 
 namespace roboss {
@@ -21,6 +23,13 @@ Result<Sample> RunAccess::read(RobotId robot, std::size_t sensor) {
         return Error{"there is no robot number " + std::to_string(robot.value),
                      "the world has " + std::to_string(states().size()), "no-robot"};
     return measure({*model_, robot, sensor, state(robot), tick(), seed(), *this});
+}
+
+Result<std::vector<RadioMessage>> RunAccess::received(RobotId robot, std::size_t sensor) {
+    if (robot.index() >= states().size()) return read(robot, sensor).error();
+    Tick& until = heard_.try_emplace({robot, sensor}, heard_from_).first->second;
+    const Tick since = std::exchange(until, tick());
+    return receive({*model_, robot, sensor, state(robot), tick(), seed(), *this, since});
 }
 
 std::vector<const RobotState*> RunAccess::pointers() const {

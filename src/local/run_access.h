@@ -2,6 +2,7 @@
 // LocalRun is one in this process, RemoteRun one on a cluster; RobotSet shows either as arrays.
 #pragma once
 
+#include <map>
 #include <memory>
 #include <span>
 #include <vector>
@@ -44,6 +45,10 @@ class RunAccess : private SensorSources {
     /// effect: each call measures. Returns an Error if there is no such robot or sensor, or if the sensor
     /// cannot measure.
     Result<Sample> read(RobotId robot, std::size_t sensor);
+    /// The messages that a radio received since the last call for it, or since the run began, was reset or
+    /// restored; by time of arrival. Messages are kept for a second (docs/radio.md): ask as often. An Error
+    /// as read(). read() gives all that are still kept.
+    Result<std::vector<RadioMessage>> received(RobotId robot, std::size_t sensor);
     /// All contact points of the tick that begins at tick(), as long as no order takes effect at it
     /// (physics/probe.h). Valid until the world is changed.
     std::span<const ContactReport> contacts() { return step_probe().contacts(); }
@@ -65,6 +70,8 @@ class RunAccess : private SensorSources {
   protected:
     /// States are others than before.
     void changed() { rays_are_new_ = probe_is_new_ = cameras_are_new_ = false, ++version_; }
+    /// What arrived up to tick() was received in another time: after a reset, a rewind, a restore.
+    void forget_received() { heard_.clear(), heard_from_ = tick(); }
 
   private:
     RayScene& ray_scene() override;
@@ -81,6 +88,8 @@ class RunAccess : private SensorSources {
     unsigned camera_threads_ = 1;
     bool rays_are_new_ = false, probe_is_new_ = false, cameras_are_new_ = false;
     std::uint64_t version_ = 1;
+    std::map<std::pair<RobotId, std::size_t>, Tick> heard_;  // up to where a radio was asked
+    Tick heard_from_ = 0;                                    // of those that were not
 };
 
 }  // namespace roboss

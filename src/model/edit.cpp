@@ -368,6 +368,9 @@ std::vector<RobotState> carry_over(const ModelEdit& edit, const std::vector<Robo
         });
         for (Bond& bond : state.bonds)
             if (bond.other != RobotId::kNone) bond.other = edit.now[bond.other].value;
+        for (RadioState& radio : state.radios)  // what is for one that is gone is for the sender: for nobody
+            for (Transmission& t : radio.sent)
+                if (t.to != RobotId::kNone) t.to = edit.now[is_gone(t.to) ? i : t.to].value;
         auto& neighbours = state.rest.neighbours;
         if (edit.scenery_changed || std::any_of(neighbours.begin(), neighbours.end(), is_gone))
             state.rest = {};
@@ -386,6 +389,9 @@ bool carry_over(const ModelEdit& edit, Order& order) {
         return false;
     if (auto* detach = std::get_if<Detach>(&order.action);
         detach != nullptr && detach->other.valid() && !stays(detach->other))
+        return false;
+    if (auto* message = std::get_if<Transmit>(&order.action);
+        message != nullptr && message->to.valid() && !stays(message->to))
         return false;
     return order.robot.valid();
 }

@@ -267,6 +267,7 @@ struct RobotType {
     std::vector<ChannelInfo> channels;            ///< commands that its on-board controllers take
     int onboard_size = 0,                         ///< size of RobotState::onboard
         list_count = 0;                           ///< size of RobotState::lists
+    std::vector<std::uint32_t> radios;            ///< of `sensors`, those that are radios; computed by seal()
     std::vector<double> initial_q;                ///< joint coordinates behind the 7 base ones
     int nq = 7,                                   ///< size of RobotState::q
         nv = 0;                                   ///< size of RobotState::v

@@ -202,6 +202,21 @@ struct Check {
         return Error{"detach order of " + called(model, order) + " names no other robot",
                      "name the robot that is held, or none to let go of all", "no-robot"};
     }
+    Result<> operator()(const Transmit& a) const {
+        const std::string what = "message of " + called(model, order);
+        if (a.radio >= type.radios.size())
+            return Error{what + " by radio number " + std::to_string(a.radio) + "; it has " +
+                             std::to_string(type.radios.size()) + " radios",
+                         "see `roboss check` for its sensors", "no-radio"};
+        if (a.to.valid() && (a.to.index() >= model.robots.size() || a.to == order.robot))
+            return Error{what + " is for no other robot", "name the robot that it is for, or none for all",
+                         "no-robot"};
+        if (a.payload.size() > RadioState::kMostPayload)
+            return Error{what + " has " + std::to_string(a.payload.size()) + " bytes",
+                         "send at most " + std::to_string(RadioState::kMostPayload) + " bytes in a message",
+                         "long-message"};
+        return Ok{};
+    }
     template <class What>
     static Result<> check_state(const What& what, const char* name, double value, double limit,
                                 const char* unit) {
@@ -241,8 +256,18 @@ struct Check {
     }
 };
 
+/// Forgets the transmissions that nobody hears any more.
+void forget_old(RadioState& radio, double now_s) {
+    std::size_t count = 0, bytes = 0;
+    while (count < radio.sent.size() && radio.sent[count].end_s + RadioState::kKept_s < now_s)
+        bytes += radio.sent[count++].size;
+    radio.sent.erase(radio.sent.begin(), radio.sent.begin() + static_cast<std::ptrdiff_t>(count));
+    radio.bytes.erase(radio.bytes.begin(), radio.bytes.begin() + static_cast<std::ptrdiff_t>(bytes));
+}
+
 /// Applies one checked action.
 struct Apply {
+    const Model& model;
     const Order& order;
     const RobotType& type;
     RobotState& state;
@@ -310,6 +335,26 @@ struct Apply {
         bond.reach = a.reach, bond.max_force = a.max_force, bond.max_torque = a.max_torque;
         state.bonds.push_back(bond);
     }
+    void operator()(const Transmit& a) const {
+        const auto& spec = *type.sensors[type.radios[a.radio]].spec.as<RadioSpec>();
+        RadioState& radio = state.radios[a.radio];
+        const double now_s = static_cast<double>(order.apply_at) * model.dt_s;
+        forget_old(radio, now_s);
+        if (radio.sent.size() >= RadioState::kMostKept ||
+            radio.bytes.size() + a.payload.size() > RadioState::kMostBytes) {
+            ++radio.dropped;
+            return;
+        }
+        Transmission t;
+        t.number = radio.count++, t.to = a.to.value, t.given = order.apply_at;
+        t.size = static_cast<std::uint32_t>(a.payload.size());
+        t.begin_s = radio.sent.empty() ? now_s : std::max(now_s, radio.sent.back().end_s);
+        t.end_s = t.begin_s;
+        if (!spec.is_perfect) t.end_s += 8.0 * static_cast<double>(t.size) / spec.bit_rate;
+        t.X_WB = base_pose(state);
+        radio.sent.push_back(t);
+        radio.bytes.insert(radio.bytes.end(), a.payload.begin(), a.payload.end());
+    }
     void operator()(const Detach& a) const {
         for (Bond& bond : state.bonds)
             if (!a.other.valid() || bond.other == a.other.value) bond.phase = BondPhase::kLoosed;
@@ -331,8 +376,8 @@ Result<> check_order(const Model& model, const Order& order) {
 }
 
 void apply_order(const Model& model, const Order& order, RobotState& state) {
-    state.rest = {};
-    std::visit(Apply{order, model.type_of(order.robot), state}, order.action);
+    if (!std::holds_alternative<Transmit>(order.action)) state.rest = {};
+    std::visit(Apply{model, order, model.type_of(order.robot), state}, order.action);
 }
 
 }  // namespace roboss

@@ -103,9 +103,20 @@ struct Detach {
     friend bool operator==(const Detach&, const Detach&) = default;
 };
 
+/// Sends a message by a radio. It begins at once, or when the radio's transmissions before it end, and lasts
+/// as long as its bits take. It moves nothing and wakes nobody. A radio that has no room for it
+/// (RadioState) drops it.
+struct Transmit {
+    std::uint32_t radio = 0;            ///< in RobotType::radios
+    RobotId to;                         ///< the robot that it is for; not valid: everybody
+    std::vector<std::uint8_t> payload;  ///< at most RadioState::kMostPayload bytes
+    /// Compares all members.
+    friend bool operator==(const Transmit&, const Transmit&) = default;
+};
+
 /// What an order does.
-using Action =
-    std::variant<SetPose, SetVelocity, ApplyWrench, SetJoint, Command, Attach, Detach, Pull, SetJointState>;
+using Action = std::variant<SetPose, SetVelocity, ApplyWrench, SetJoint, Command, Attach, Detach, Pull,
+                            SetJointState, Transmit>;
 
 /// An action on one robot at one tick.
 struct Order {

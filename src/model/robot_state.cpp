@@ -25,6 +25,7 @@ RobotState initial_state(const Model& model, RobotId robot) {
     state.motors.resize(type.motor_count());
     state.onboard.resize(static_cast<std::size_t>(type.onboard_size));
     state.lists.resize(static_cast<std::size_t>(type.list_count));
+    state.radios.resize(type.radios.size());
     for (const ChannelInfo& c : type.channels) state.onboard[static_cast<std::size_t>(c.index)] = -1;
     for (const OnboardInfo& info : type.onboard)
         std::copy(info.memory.begin(), info.memory.end(), state.onboard.begin() + info.memory_index);
@@ -49,12 +50,23 @@ class Teller {
     static constexpr bool kReading = false;
     explicit Teller(Put put) : put_(std::move(put)) {}
     void word(std::uint64_t w) { put_(w); }
+    void word_of(std::uint64_t w) { word(w); }
     void number(double x) { word(std::bit_cast<std::uint64_t>(x)); }
     void tick(Tick t) { word(static_cast<std::uint64_t>(t)); }
     void id(std::uint32_t i) { word(i); }
     void pair(std::uint32_t a, std::uint32_t b) { word(static_cast<std::uint64_t>(a) << 32 | b); }
-    void flagged(std::uint32_t n, bool flag, bool flag_2, bool flag_3) {
-        pair(n, (flag ? 1 : 0) | (flag_2 ? 2 : 0) | (flag_3 ? 4 : 0));
+    void flagged(std::uint32_t n, bool flag, bool flag_2, bool flag_3, bool flag_4) {
+        pair(n, (flag ? 1 : 0) | (flag_2 ? 2 : 0) | (flag_3 ? 4 : 0) | (flag_4 ? 8 : 0));
+    }
+    /// Eight to a word, the last one filled up with zeros.
+    void bytes(const std::vector<std::uint8_t>& list) {
+        length(list);
+        for (std::size_t i = 0; i < list.size(); i += 8) {
+            std::uint64_t w = 0;
+            for (std::size_t k = i; k < list.size() && k < i + 8; ++k)
+                w |= static_cast<std::uint64_t>(list[k]) << (8 * (k - i));
+            word(w);
+        }
     }
     void flag(bool on) { word(on ? 1 : 0); }
     template <class Enum>
@@ -81,6 +93,7 @@ class Reader {
         at_ += 8;
         return w;
     }
+    void word_of(std::uint64_t& w) { w = word(); }
     void number(double& x) { x = std::bit_cast<double>(word()); }
     void tick(Tick& t) { t = static_cast<Tick>(word()); }
     void id(std::uint32_t& i) {
@@ -92,11 +105,23 @@ class Reader {
         const std::uint64_t w = word();
         a = static_cast<std::uint32_t>(w >> 32), b = static_cast<std::uint32_t>(w);
     }
-    void flagged(std::uint32_t& n, bool& flag, bool& flag_2, bool& flag_3) {
+    void flagged(std::uint32_t& n, bool& flag, bool& flag_2, bool& flag_3, bool& flag_4) {
         std::uint32_t flags = 0;
         pair(n, flags);
         flag = (flags & 1) != 0, flag_2 = (flags & 2) != 0, flag_3 = (flags & 4) != 0;
-        if (flags > 7) fail();
+        flag_4 = (flags & 8) != 0;
+        if (flags > 15) fail();
+    }
+    void bytes(std::vector<std::uint8_t>& list) {
+        const std::uint64_t n = word();
+        if (n > 8 * left()) return fail();
+        list.resize(n);
+        for (std::size_t i = 0; i < list.size(); i += 8) {
+            std::uint64_t w = word();
+            for (std::size_t k = i; k < list.size() && k < i + 8; ++k, w >>= 8)
+                list[k] = static_cast<std::uint8_t>(w);
+            if (w != 0) fail();  // what fills it up
+        }
     }
     void flag(bool& on) {
         const std::uint64_t w = word();
@@ -186,11 +211,28 @@ void fields(A& a, Of<A, Bond>& bond) {
     a.number(max_force), a.number(max_torque), fields(a, force_impulse), fields(a, torque_impulse);
 }
 
-/// Who is awake has no bound. `acts`: what on-board controllers keep follows later; `pulled`: pulls do.
+template <class A>
+void fields(A& a, Of<A, Transmission>& transmission) {
+    auto& [number, to, size, given, begin_s, end_s, X_WB] = transmission;
+    a.word_of(number), a.pair(to, size), a.tick(given), a.number(begin_s), a.number(end_s);
+    fields(a, X_WB.p);
+    a.number(X_WB.q.w), a.number(X_WB.q.x), a.number(X_WB.q.y), a.number(X_WB.q.z);
+}
+
+template <class A>
+void fields(A& a, Of<A, RadioState>& radio) {
+    auto& [count, dropped, sent, bytes] = radio;
+    a.word_of(count), a.word_of(dropped), a.length(sent);
+    for (auto& transmission : sent) fields(a, transmission);
+    a.bytes(bytes);
+}
+
+/// Who is awake has no bound. `acts`: what on-board controllers keep follows later; `pulled`: pulls do;
+/// `talks`: radios do.
 template <class A, class Flag>
-void fields(A& a, Of<A, Rest>& rest, Flag& acts, Flag& pulled) {
+void fields(A& a, Of<A, Rest>& rest, Flag& acts, Flag& pulled, Flag& talks) {
     auto& [still_ticks, asleep, neighbours, bound] = rest;
-    a.flagged(still_ticks, asleep, acts, pulled);
+    a.flagged(still_ticks, asleep, acts, pulled, talks);
     a.length(neighbours);
     for (auto& id : neighbours) a.id(id);
     auto& [min, max] = bound;
@@ -199,18 +241,22 @@ void fields(A& a, Of<A, Rest>& rest, Flag& acts, Flag& pulled) {
 
 template <class A>
 void fields(A& a, Of<A, RobotState>& state) {
-    auto& [q, v, motors, wrenches, contacts, rest, onboard, lists, surfaces, bonds, pulls] = state;
+    auto& [q, v, motors, wrenches, contacts, rest, onboard, lists, surfaces, bonds, pulls, radios] = state;
     bool acts = !onboard.empty() || !lists.empty() || !surfaces.empty() || !bonds.empty();
-    bool pulled = !pulls.empty();
+    bool pulled = !pulls.empty(), talks = !radios.empty();
     a.length(q), a.length(v), a.length(motors), a.length(wrenches), a.length(contacts);
     for (auto& x : q) a.number(x);
     for (auto& x : v) a.number(x);
     for (auto& motor : motors) fields(a, motor);
     for (auto& wrench : wrenches) fields(a, wrench);
     for (auto& contact : contacts) fields(a, contact);
-    fields(a, rest, acts, pulled);
+    fields(a, rest, acts, pulled, talks);
     if (pulled) a.length(pulls);
     for (auto& pull : pulls) fields(a, pull);
+    if (talks) a.length(radios);
+    if constexpr (A::kReading)
+        if (talks && radios.empty()) a.fail();
+    for (auto& radio : radios) fields(a, radio);
     if (!acts) return;
     a.length(onboard), a.length(lists), a.length(surfaces), a.length(bonds);
     for (auto& x : onboard) a.number(x);
@@ -220,6 +266,20 @@ void fields(A& a, Of<A, RobotState>& state) {
     }
     for (auto& surface : surfaces) fields(a, surface);
     for (auto& bond : bonds) fields(a, bond);
+}
+
+/// Whether a radio's state is one that orders may lead to.
+bool is_consistent(const RadioState& radio, std::size_t robots) {
+    std::uint64_t bytes = 0;
+    for (const Transmission& t : radio.sent) {
+        bytes += t.size;
+        const bool fits = (t.to == RobotId::kNone || t.to < robots) && t.number < radio.count &&
+                          std::isfinite(t.begin_s) && std::isfinite(t.end_s) && t.begin_s <= t.end_s &&
+                          is_finite(t.X_WB);
+        if (!fits) return false;
+    }
+    return bytes == radio.bytes.size() && radio.sent.size() <= RadioState::kMostKept &&
+           bytes <= RadioState::kMostBytes;
 }
 
 /// What is wrong with a state of which every field was read; nullptr: nothing.
@@ -240,6 +300,10 @@ const char* inconsistency_of(const RobotState& state, const RobotType& type, std
     if (state.onboard.size() != static_cast<std::size_t>(type.onboard_size) ||
         state.lists.size() != static_cast<std::size_t>(type.list_count))
         return "has not as many commands or as much memory of on-board controllers as that";
+    if (state.radios.size() != type.radios.size()) return "has not as many radios as that";
+    const auto radio_fits = [&](const RadioState& r) { return is_consistent(r, robots); };
+    if (!std::all_of(state.radios.begin(), state.radios.end(), radio_fits))
+        return "has a radio whose transmissions do not fit each other";
     const auto surface_fits = [&](const SurfaceMotion& s) { return s.link.index() < type.links.size(); };
     if (!std::all_of(state.surfaces.begin(), state.surfaces.end(), surface_fits))
         return "moves the surface of a link that does not exist";

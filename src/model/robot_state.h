@@ -122,6 +122,35 @@ struct Bond {
     friend bool operator==(const Bond&, const Bond&) = default;
 };
 
+/// A message that a radio sends or has sent.
+struct Transmission {
+    std::uint64_t number = 0;       ///< of the radio's transmissions, from 0
+    std::uint32_t to = 0xFFFFFFFF;  ///< RobotId of the robot that it is for; Id::kNone: everybody
+    std::uint32_t size = 0;         ///< bytes of its payload
+    Tick given = 0;                 ///< when the order took effect
+    double begin_s = 0,             ///< s, simulated time at which it begins
+        end_s = 0;                  ///< s, at which it ends
+    Pose X_WB;                      ///< of the sender's base (base_pose) when the order took effect
+    /// Compares all members.
+    friend bool operator==(const Transmission&, const Transmission&) = default;
+};
+
+/// What others may still have to hear of a radio: its last transmissions. What each hears, Clients compute
+/// (sensors/radio.cpp).
+struct RadioState {
+    static constexpr double kKept_s = 1;               ///< how long after its end a transmission is kept, s
+    static constexpr std::size_t kMostKept = 1024,     ///< transmissions
+        kMostBytes = 131'072;                          ///< of all their payloads
+    static constexpr std::size_t kMostPayload = 8192;  ///< bytes of one message
+
+    std::uint64_t count = 0,          ///< transmissions so far
+        dropped = 0;                  ///< orders for which there was no room
+    std::vector<Transmission> sent;   ///< by time
+    std::vector<std::uint8_t> bytes;  ///< their payloads, one behind the other
+    /// Compares all members.
+    friend bool operator==(const RadioState&, const RadioState&) = default;
+};
+
 /// State of one robot at the start of a tick.
 struct RobotState {
     std::vector<double> q;                ///< see model.h
@@ -135,8 +164,9 @@ struct RobotState {
     std::vector<double> onboard;
     std::vector<std::vector<double>> lists;  ///< latched commands that are lists, row by row
     std::vector<SurfaceMotion> surfaces;     ///< in motion, by ascending link
-    std::vector<Bond> bonds;       ///< attachments that this robot holds, in the order in which they came
-    std::vector<TimedPull> pulls;  ///< in force, at most one on a link
+    std::vector<Bond> bonds;         ///< attachments that this robot holds, in the order in which they came
+    std::vector<TimedPull> pulls;    ///< in force, at most one on a link
+    std::vector<RadioState> radios;  ///< by RobotType::radios
     /// Compares all members.
     friend bool operator==(const RobotState&, const RobotState&) = default;
 };

@@ -75,6 +75,9 @@ void seal(Model& model) {
     for (RobotType& type : model.types) {
         type.paths = DofPaths(type.dof_parent);
         lay_out_onboard(type);
+        type.radios.clear();
+        for (std::uint32_t i = 0; i < type.sensors.size(); ++i)
+            if (type.sensors[i].spec.as<RadioSpec>() != nullptr) type.radios.push_back(i);
         type.elimination = joint_elimination(type);
         type.hash = type_hash(type);
     }

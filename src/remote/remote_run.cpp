@@ -108,6 +108,7 @@ Result<std::unique_ptr<RemoteRun>> RemoteRun::join(const RemoteOptions& options,
     if (Result<> shown = run->wait_until([&] { return run->client_->observing(); }, go_on); !shown)
         return shown.error();
     run->until_ = run->tick();
+    run->forget_received();
     return run;
 }
 
@@ -194,6 +195,7 @@ Result<std::string> RemoteRun::change_run(const ControlAction& action, const GoO
     if (Result<> waited = wait_until(goes_on, go_on, true); !waited) return waited.error();
     until_ = tick();
     changed();
+    forget_received();
     const auto* done = std::get_if<ControlDone>(&outcome);
     return done ? done->text : std::string();
 }

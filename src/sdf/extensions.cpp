@@ -13,11 +13,16 @@ namespace {
 
 constexpr const char* kMotor[] = {"position_gain", "velocity_gain", "armature", "max_effort", "max_velocity"};
 constexpr const char* kDrag[] = {"coefficient", "area", "linear"};
+constexpr const char* kRadio[] = {"pose",        "channel",         "address",    "bit_rate",
+                                  "latency",     "range",           "tx_power",   "l0",
+                                  "sigma",       "fading_exponent", "loss",       "capture",
+                                  "noise_floor", "obstacle_loss",   "collisions", "update_rate"};
 constexpr const char* kGripper[] = {"type", "pose", "reach", "max_force", "max_torque", "on"};
 
 bool is_ours_here(const char* parent, const char* name) {
     const auto is = [](const char* a, const char* b) { return std::strcmp(a, b) == 0; };
-    if (is(name, "roboss:sensor") || is(name, "roboss:drag") || is(name, "roboss:gripper"))
+    if (is(name, "roboss:sensor") || is(name, "roboss:radio") || is(name, "roboss:drag") ||
+        is(name, "roboss:gripper"))
         return is(parent, "link");
     if (is(name, "roboss:joint")) return is(parent, "joint");
     if (is(name, "roboss:motor")) return is(parent, "joint") || is(parent, "axis") || is(parent, "axis2");
@@ -43,6 +48,7 @@ void convert_extension(const Element& element, const std::string& scope, const I
     if (is_ours_here(parent.c_str(), name.c_str())) {
         if (name == "roboss:motor") report_unknown_children(element, kMotor, import.diagnostics());
         if (name == "roboss:joint") report_joint(element, import);
+        if (name == "roboss:radio") report_unknown_children(element, kRadio, import.diagnostics());
         if (name == "roboss:gripper") report_unknown_children(element, kGripper, import.diagnostics());
         if (name == "roboss:surface_velocity") convert_surface_velocity(element, scope, import, model);
         if (name == "roboss:actor") convert_actor(element, import, model);
@@ -52,7 +58,8 @@ void convert_extension(const Element& element, const std::string& scope, const I
     import.diagnostics().warning(
         element.where(), "unknown-extension",
         "<" + name + "> in <" + parent + "> is not known and is ignored",
-        "Known: <roboss:sensor>, <roboss:drag> and <roboss:gripper> in a link, <roboss:joint> in a joint, "
+        "Known: <roboss:sensor>, <roboss:radio>, <roboss:drag> and <roboss:gripper> in a link, "
+        "<roboss:joint> in a joint, "
         "<roboss:motor> in a joint or axis, <roboss:rolling_friction> in a collision or surface, "
         "<roboss:surface_velocity> in a link or collision.");
 }

@@ -7,6 +7,7 @@
 
 #include "mjcf/load_mjcf.h"
 #include "sdf/actor_conversion.h"
+#include "sdf/comms.h"
 #include "sdf/crumb_conversion.h"
 #include "sdf/environment.h"
 #include "sdf/event_conversion.h"
@@ -72,6 +73,7 @@ class WorldLoader {
         attach_world_plugins(plugins, result, diagnostics_);
         mark_buoyant(result);
         convert_environment(result, import_);
+        convert_comms(result, import_);
         show_scenery(result);
         convert_events(result, crumbs, diagnostics_);
         validate_settings(result, diagnostics_);

@@ -221,7 +221,8 @@ class ModelConverter {
         } else if (std::strcmp(tag, "light") == 0) {
             if (auto light = convert_light(part, pose_of(part, link.LightByName(part.name()), link), import_))
                 spec.lights.push_back(std::move(*light));
-        } else if (std::strcmp(tag, "sensor") == 0 || std::strcmp(tag, "roboss:sensor") == 0) {
+        } else if (std::strcmp(tag, "sensor") == 0 || std::strcmp(tag, "roboss:sensor") == 0 ||
+                   std::strcmp(tag, "roboss:radio") == 0) {
             const Pose X_LS = pose_of(part, link.SensorByName(part.name()), link);
             spec.sensors.push_back(convert_sensor(part, X_LS, scope.prefix, import_));
         }

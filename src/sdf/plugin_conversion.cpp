@@ -4,6 +4,7 @@
 #include <cctype>
 #include <sstream>
 
+#include "sdf/comms.h"
 #include "sdf/crumb_conversion.h"
 #include "sdf/environment.h"
 #include "sdf/event_conversion.h"
@@ -128,8 +129,8 @@ void convert_plugin(const Element& plugin, const std::string& scope, const Impor
         record.fate = PluginFate::kNotNeeded;
         return;
     }
-    if (is_one_of(kEventPlugins, name.class_name) || is_environment_plugin(name))
-        return;  // convert_events() and convert_environment() do, when all models are known
+    if (is_one_of(kEventPlugins, name.class_name) || is_environment_plugin(name) || is_comms_plugin(name))
+        return;  // convert_events(), convert_environment(), convert_comms() do, when all models are known
     std::optional<OnboardParameters> parameters = parameters_for(name);
     if (!parameters && is_sensor_plugin(name)) {
         record.fate = PluginFate::kRuns;  // see convert_plugin_sensors()

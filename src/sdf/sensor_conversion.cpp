@@ -18,11 +18,12 @@ Element block_of(const Element& sensor, const SensorKind& kind) {
 }
 
 bool is_ours(const Element& sensor) {
-    return std::strcmp(sensor.node.name(), "roboss:sensor") == 0;
+    return std::strncmp(sensor.node.name(), "roboss:", 7) == 0;
 }
 
-/// Gazebo's type of a sensor of type "custom": "environmental_sensor/humidity".
+/// Gazebo's type of a sensor of type "custom": "environmental_sensor/humidity". A <roboss:radio> has none.
 std::string type_of(const Element& sensor) {
+    if (std::strcmp(sensor.node.name(), "roboss:radio") == 0) return "radio";
     std::string type = sensor.node.attribute("type").value();
     if (type != "custom") return type;
     for (const char* name : {"gz:type", "ignition:type"})

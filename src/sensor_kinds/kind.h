@@ -57,11 +57,15 @@ struct SensorKind {
     const char* sdf_types;   ///< values of `<sensor type="...">`, separated by |
     bool ours = false;       ///< in `<roboss:sensor>` rather than `<sensor>`
     const char* block = "";  ///< the child element that holds the parameters, or "first|second"; "": none
-    bool block_required = false;                ///< without it the sensor measures nothing
-    bool needs_all_states = false;              ///< a reading depends on the states of other robots
-    bool is_image = false;                      ///< readings are large: measured when asked, never held
+    bool block_required = false;    ///< without it the sensor measures nothing
+    bool needs_all_states = false;  ///< a reading depends on the states of other robots
+    bool is_image = false;          ///< readings are images: large, measured when asked, never held
+    bool is_never_held = false;     ///< measured when asked, never held, for another reason
     std::span<const IgnoredElement> ignored{};  ///< elements that have no effect
     PublishingPlugin plugin{};                  ///< of Gazebo, that measures this
+
+    /// Whether a Client keeps a sample until the next one is due.
+    constexpr bool is_held() const { return !is_image && !is_never_held; }
 };
 
 /// Why a sensor cannot measure with these parameters.

@@ -33,6 +33,7 @@
 #include "sensor_kinds/odometer.h"
 #include "sensor_kinds/odometry.h"
 #include "sensor_kinds/onboard_values.h"
+#include "sensor_kinds/radio.h"
 #include "sensor_kinds/sonar.h"
 #include "sensor_kinds/thermal_camera.h"
 
@@ -66,7 +67,7 @@ using SensorKinds =
                    WheelOdometrySpec, BatterySensorSpec, KineticEnergySpec, TrajectoryProgressSpec,
                    LogicalCameraSpec, MicrophoneSpec, AirPressureSpec, AirSpeedSpec, EnvironmentalSpec,
                    TrackOdometrySpec, SonarSpec, ColorCameraSpec, DepthCameraSpec, RgbdCameraSpec,
-                   SegmentationCameraSpec, BoxCameraSpec, ThermalCameraSpec>;
+                   SegmentationCameraSpec, BoxCameraSpec, ThermalCameraSpec, RadioSpec>;
 
 /// Parameters of any kind.
 using SensorParameters = SensorKinds::Parameters;

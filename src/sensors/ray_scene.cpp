@@ -1,6 +1,7 @@
 // Two trees: the scenery, built once, and every robot's shapes, rebuilt at each update. Planes have no box
 // and are asked by every ray. A ray asks the scenery first, so that the robots behind a wall are never looked
 // at.
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -45,6 +46,23 @@ struct Watching final : RayTree::Target {
     }
     RayAndItems target;
     RayScene::Sight& sight;
+};
+
+/// Counts all that the ray meets before `length`.
+struct Counting final : RayTree::Target {
+    Counting(const RayScene::Ray& r, std::span<const Item> all, RobotId one, RobotId other)
+        : ray(r), items(all), a(one), b(other) {}
+    double distance(std::uint32_t i) const override {
+        const Item& item = items[i];
+        if (item.robot.valid() && (item.robot == a || item.robot == b)) return kInfinity;
+        const bool meets = ray_distance(item.shape, item.X_WS, ray.origin_W, ray.direction_W) < ray.max_range;
+        if (meets && std::ranges::find(met, i) == met.end()) met.push_back(i);
+        return kInfinity;  // so that the tree goes on
+    }
+    const RayScene::Ray& ray;
+    std::span<const Item> items;
+    RobotId a, b;
+    mutable std::vector<std::uint32_t> met;
 };
 
 double nearest_of_all(const RayScene::Ray& ray, std::span<const Item> items, double limit) {
@@ -109,6 +127,17 @@ RayScene::Sight RayScene::Impl::look(const Ray& ray) const {
     (void)static_tree.nearest(ray.origin_W, ray.direction_W, sight.distance, scenery);
     (void)robot_tree.nearest(ray.origin_W, ray.direction_W, sight.distance, robots);
     return sight.distance <= ray.max_range ? sight : Sight{kInfinity, RobotId()};
+}
+
+std::size_t RayScene::shapes_between(const Vec3& from_W, const Vec3& to_W, RobotId a, RobotId b) const {
+    const ExactFloatScope exact;
+    const double length = norm(to_W - from_W);
+    if (!(length > 0)) return 0;
+    const Ray ray{from_W, (to_W - from_W) / length, length, {}, {}};
+    const Counting scenery(ray, impl_->static_items, a, b), robots(ray, impl_->robot_items, a, b);
+    (void)impl_->static_tree.nearest(ray.origin_W, ray.direction_W, length, scenery);
+    (void)impl_->robot_tree.nearest(ray.origin_W, ray.direction_W, length, robots);
+    return scenery.met.size() + robots.met.size();
 }
 
 RayScene::RayScene(std::shared_ptr<const Model> model) : impl_(std::make_unique<Impl>(std::move(model))) {

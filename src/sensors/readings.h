@@ -39,6 +39,9 @@ class RayScene {
     };
     /// The same, and whose shapes they are. Several threads may call it at once, between two update().
     void look(std::span<const Ray> rays, std::span<Sight> sights) const;
+    /// How many shapes stand between two points of the world, m: of scenery and of robots other than these
+    /// two. Planes do not count.
+    std::size_t shapes_between(const Vec3& from_W, const Vec3& to_W, RobotId a, RobotId b) const;
 
   private:
     struct Impl;
@@ -90,5 +93,10 @@ Result<RgbdCameraReading> read(const RgbdCameraSpec& camera, const SensorQuery& 
 Result<SegmentationCameraReading> read(const SegmentationCameraSpec& camera, const SensorQuery& query);
 Result<BoxCameraReading> read(const BoxCameraSpec& camera, const SensorQuery& query);
 Result<ThermalCameraReading> read(const ThermalCameraSpec& camera, const SensorQuery& query);
+Result<RadioReading> read(const RadioSpec& radio, const SensorQuery& query);
+
+/// The messages that a radio received after query.since up to query.tick, by time of arrival. An Error as of
+/// measure().
+Result<std::vector<RadioMessage>> receive(const SensorQuery& query);
 
 }  // namespace roboss

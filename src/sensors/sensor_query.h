@@ -38,6 +38,7 @@ struct SensorQuery {
     Tick tick = 0;
     std::uint64_t seed = 0;
     SensorSources& sources;
+    Tick since = -1;  ///< of a radio: messages that arrived after this tick; -1: all that are kept
 
     const RobotType& type() const { return model.type_of(robot); }
     const SensorInfo& info() const { return type().sensors[sensor]; }

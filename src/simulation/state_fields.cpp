@@ -1,4 +1,5 @@
 // Names for the numbers of a robot's state.
+#include <algorithm>
 #include <bit>
 #include <cstdio>
 
@@ -105,6 +106,26 @@ void compare_pulls(const RobotState& a, const RobotState& b, Fields& fields) {
     }
 }
 
+void compare_radios(const RobotState& a, const RobotState& b, Fields& fields) {
+    for (std::size_t i = 0; i < std::min(a.radios.size(), b.radios.size()) && !fields.done(); ++i) {
+        const RadioState &x = a.radios[i], &y = b.radios[i];
+        const std::string name = "radio " + std::to_string(i);
+        fields.count(name + ", transmissions", x.count, y.count);
+        fields.count(name + ", dropped transmissions", x.dropped, y.dropped);
+        fields.count(name + ", transmissions kept", x.sent.size(), y.sent.size());
+        for (std::size_t k = 0; k < x.sent.size() && !fields.done(); ++k) {
+            const std::string one = name + ", transmission " + std::to_string(x.sent[k].number);
+            fields.count(one + " number", x.sent[k].number, y.sent[k].number);
+            fields.count(one + " addressee", x.sent[k].to, y.sent[k].to);
+            fields.count(one + " size", x.sent[k].size, y.sent[k].size);
+            fields.number(one + " begin", x.sent[k].begin_s, y.sent[k].begin_s);
+            fields.number(one + " end", x.sent[k].end_s, y.sent[k].end_s);
+            fields.vector(one + " position", x.sent[k].X_WB.p, y.sent[k].X_WB.p);
+        }
+        fields.count(name + ", payloads differ", 0, x.bytes == y.bytes ? 0 : 1);
+    }
+}
+
 void compare_contacts(const RobotState& a, const RobotState& b, Fields& fields) {
     fields.count("number of contacts", a.contacts.size(), b.contacts.size());
     for (std::size_t i = 0; i < a.contacts.size() && !fields.done(); ++i) {
@@ -171,6 +192,7 @@ std::optional<FieldDifference> first_difference(const RobotType& type, const Rob
     compare_coordinates(type, a, b, fields);
     compare_orders(a, b, fields);
     compare_pulls(a, b, fields);
+    compare_radios(a, b, fields);
     compare_contacts(a, b, fields);
     compare_rest(a.rest, b.rest, fields);
     compare_onboard(a, b, fields);

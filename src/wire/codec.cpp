@@ -143,6 +143,7 @@ template <class A> void field(A& a, Of<A, Pull>& m) {
     fields(a, link, p_L, target_W, rate, max_force, duration);
 }
 template <class A> void field(A& a, Of<A, SetJointState>& m) { auto& [joint, position, velocity] = m; fields(a, joint, position, velocity); }
+template <class A> void field(A& a, Of<A, Transmit>& m) { auto& [radio, to, payload] = m; fields(a, radio, to, payload); }
 template <class A> void field(A& a, Of<A, Order>& m) { auto& [apply_at, client, sequence, robot, action] = m; fields(a, apply_at, client, sequence, robot, action); }
 template <class A> void field(A& a, Of<A, Hello>& m) { auto& [model_hash, threads, name] = m; fields(a, model_hash, threads, name); }
 template <class A> void field(A& a, Of<A, Welcome>& m) { auto& [simulator] = m; fields(a, simulator); }

@@ -68,7 +68,7 @@ class CheckPlugins(unittest.TestCase):
         self.assertIn("its world cannot be read: no '...'", rows["Thruster"])
 
     def test_messages_between_programs_have_a_line_of_their_own(self):
-        self.world("a.sdf", {"plugins": [plugin("RFComms", "not run", 1, "none"), plugin("Thruster", "runs")]})
+        self.world("a.sdf", {"plugins": [plugin("AcousticComms", "not run", 1, "none"), plugin("Thruster", "runs")]})
         ran, _ = self.count()
         self.assertIn("1 of 1 elements that move", ran.stdout)
         self.assertIn("1 of 2 with messages", ran.stdout)

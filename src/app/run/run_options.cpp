@@ -33,7 +33,8 @@ An orders file has one JSON object per line:
   {"t":1.0,"robot":"car_7","set_pose":{"position":[0,0,1],"orientation":[1,0,0,0]}}
   {"t":1.0,"robot":"car_7","set_velocity":{"linear":[1,0,0],"angular":[0,0,0]}}
   {"t":2.0,"robot":"car_7","wrench":{"link":"chassis","force":[0,0,50],"torque":[0,0,0],"duration":0.1}}
-  {"t":2.0,"robot":"car_7","pull":{"link":"chassis","point":[0,0,0],"target":[0,0,1],"max_force":500,"duration":3}})";
+  {"t":2.0,"robot":"car_7","pull":{"link":"chassis","point":[0,0,0],"target":[0,0,1],"max_force":500,"duration":3}}
+  {"t":3.0,"robot":"rover_0","transmit":{"radio":"radio","text":"hello","to":"rover_1"}})";
 
 const char* const kControllerFooter = R"(Examples:
   roboss controller worlds/city.sdf --simulators 2 --duration 60        then, in two other terminals

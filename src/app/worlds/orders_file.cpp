@@ -9,6 +9,7 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "model/addressee.h"
 #include "model/topics.h"
 
 namespace roboss {
@@ -249,6 +250,58 @@ Action parse_detach(const json& o, const Model& model) {
     return Detach{o.contains("robot") ? other_robot(o, model) : RobotId()};
 }
 
+std::vector<std::uint8_t> bytes_of(const std::string& digits) {
+    std::vector<std::uint8_t> bytes;
+    const auto value = [](char c) {
+        if (c >= '0' && c <= '9') return c - '0';
+        if (c >= 'a' && c <= 'f') return c - 'a' + 10;
+        if (c >= 'A' && c <= 'F') return c - 'A' + 10;
+        throw LineFault("'hex' has the character '" + std::string(1, c) + "'", "write hexadecimal digits");
+    };
+    if (digits.size() % 2 != 0)
+        throw LineFault("'hex' has " + std::to_string(digits.size()) + " digits", "write two for each byte");
+    for (std::size_t i = 0; i < digits.size(); i += 2)
+        bytes.push_back(static_cast<std::uint8_t>(16 * value(digits[i]) + value(digits[i + 1])));
+    return bytes;
+}
+
+std::string digits_of(const std::vector<std::uint8_t>& bytes) {
+    constexpr char kDigits[] = "0123456789abcdef";
+    std::string digits;
+    for (const std::uint8_t byte : bytes) digits += {kDigits[byte >> 4], kDigits[byte & 15]};
+    return digits;
+}
+
+Action parse_transmit(const json& o, const Model& model, RobotId robot) {
+    only_keys(o, "transmit", {"radio", "to", "text", "hex"});
+    const RobotType& type = model.type_of(robot);
+    const std::string& name = model.robots[robot.index()].name;
+    const std::string radio = text(o, "radio");
+    const auto sensor = type.find_sensor(radio);
+    if (!sensor)
+        throw LineFault("robot '" + name + "' has no sensor '" + radio + "'",
+                        "`roboss check WORLD` lists its sensors");
+    const Result<std::uint32_t> number = radio_number(model, robot, *sensor);
+    if (!number) throw LineFault(number.error().message, number.error().remedy);
+    Transmit message{number.value(), {}, {}};
+    if (o.contains("to")) {
+        const auto to = find_addressee(model, text(o, "to"));
+        if (!to)
+            throw LineFault("no robot of the world has the name or the address '" + text(o, "to") + "'",
+                            "leave 'to' out for all who hear it");
+        message.to = *to;
+    }
+    if (o.contains("text") == o.contains("hex"))
+        throw LineFault("the message has both or none of 'text' and 'hex'", "give one of them");
+    if (o.contains("hex")) {
+        message.payload = bytes_of(text(o, "hex"));
+    } else {
+        const std::string content = text(o, "text");
+        message.payload.assign(content.begin(), content.end());
+    }
+    return message;
+}
+
 json parse_json(const std::string& line) {
     try {
         return json::parse(line);
@@ -289,7 +342,7 @@ std::vector<Order> parse_publish(const json& o, const Model& model) {
 Order parse_order(const json& o, const Model& model) {
     only_keys(o, "an order",
               {"t", "robot", "set_pose", "set_velocity", "wrench", "joint", "joint_state", "command",
-               "attach", "detach", "pull"});
+               "attach", "detach", "pull", "transmit"});
     const Tick tick = tick_of(o, model);
     const std::string robot = text(o, "robot");
     const auto id = model.find_robot(robot);
@@ -300,9 +353,7 @@ Order parse_order(const json& o, const Model& model) {
     if (actions != 1)
         throw LineFault("the order has " + std::to_string(actions) + " actions",
                         "name one of set_pose, set_velocity, wrench, pull, joint, joint_state, command, "
-                        "attach, detach, or "
-                        "publish without a "
-                        "robot");
+                        "attach, detach, transmit, or publish without a robot");
     Order order;
     order.apply_at = tick;
     order.robot = *id;
@@ -315,6 +366,7 @@ Order parse_order(const json& o, const Model& model) {
     if (o.contains("command")) order.action = parse_command(o["command"], type, robot);
     if (o.contains("attach")) order.action = parse_attach(o["attach"], model, type, robot);
     if (o.contains("detach")) order.action = parse_detach(o["detach"], model);
+    if (o.contains("transmit")) order.action = parse_transmit(o["transmit"], model, *id);
     return order;
 }
 
@@ -390,6 +442,11 @@ struct ActionToJson {
         if (std::isfinite(a.max_force)) attach["max_force"] = a.max_force;
         if (std::isfinite(a.max_torque)) attach["max_torque"] = a.max_torque;
         line["attach"] = attach;
+    }
+    void operator()(const Transmit& a) const {
+        line["transmit"] = {{"radio", type.sensors[type.radios[a.radio]].spec.name},
+                            {"hex", digits_of(a.payload)}};
+        if (a.to.valid()) line["transmit"]["to"] = model.robots[a.to.index()].name;
     }
     void operator()(const Detach& a) const {
         line["detach"] = nlohmann::ordered_json::object();

@@ -16,6 +16,9 @@ std::shared_ptr<const Model> cart_model() {
     cart.canonical_link = "base";
     LinkSpec base, top;
     base.name = "base", top.name = "top";
+    SensorSpec radio;
+    radio.name = "radio", radio.parameters = RadioSpec{};
+    top.sensors = {radio};
     cart.links = {base, top};
     JointSpec slide;
     slide.name = "slide", slide.kind = JointSpecKind::kPrismatic, slide.parent = "base", slide.child = "top";
@@ -165,6 +168,26 @@ TEST(OrdersFile, AMessageThatNobodyTakesIsRefused) {
     }
 }
 
+TEST(OrdersFile, RadioMessagesAreReadAndWrittenAlike) {
+    Diagnostics d;
+    const auto model = cart_model();
+    const auto orders =
+        parse_orders(R"({"t":1,"robot":"cart","transmit":{"radio":"radio","text":"hi\u00e9"}})"
+                     "\n"
+                     R"({"t":1,"robot":"cart","transmit":{"radio":"radio","hex":"00fFa1"}})",
+                     "f.jsonl", *model, d);
+    ASSERT_TRUE(d.items().empty());
+    ASSERT_EQ(orders.size(), 2u);
+    EXPECT_EQ(std::get<Transmit>(orders[0].action).payload,
+              (std::vector<std::uint8_t>{'h', 'i', 0xC3, 0xA9}));
+    EXPECT_EQ(std::get<Transmit>(orders[1].action).payload, (std::vector<std::uint8_t>{0, 255, 161}));
+    for (const Order& order : orders) {
+        const auto again = parse_orders(order_line(order, *model), "f.jsonl", *model, d);
+        ASSERT_EQ(again.size(), 1u);
+        EXPECT_EQ(again[0].action, order.action);
+    }
+}
+
 struct BadLine {
     const char* line;
     const char* names;  // the key or value of the line that the message must name; empty: the whole line
@@ -205,6 +228,12 @@ INSTANTIATE_TEST_SUITE_P(
         BadLine{R"({"t":0,"robot":"cart","wrench":{"link":"bottom","force":[0,0,1]}})", "'bottom'"},
         BadLine{R"({"t":0,"robot":"cart","wrench":{"link":"top","force":[0,0,1],"duration":0}})",
                 "'duration'"},
+        BadLine{R"({"t":0,"robot":"cart","transmit":{"radio":"ratio","text":""}})", "'ratio'"},
+        BadLine{R"({"t":0,"robot":"cart","transmit":{"radio":"radio"}})", "'text'"},
+        BadLine{R"({"t":0,"robot":"cart","transmit":{"radio":"radio","hex":"abc"}})", "'hex'"},
+        BadLine{R"({"t":0,"robot":"cart","transmit":{"radio":"radio","hex":"0g"}})", "'g'"},
+        BadLine{R"({"t":0,"robot":"cart","transmit":{"radio":"radio","text":"a","to":"carl"}})", "'carl'"},
+        BadLine{R"({"t":0,"robot":"cart","transmit":{"radio":"radio","text":"a","to":"cart"}})", "'cart'"},
         BadLine{R"({"t":0,"robot":"cart","set_velocity":{"linear":[1e999,0,0]}})", ""}));
 
 TEST(OrdersFile, AFileThatIsNotThereIsAnError) {

@@ -229,6 +229,7 @@ const Element kElements[] = {
     {In::kLink, "<velocity_decay><angular>.1</angular></velocity_decay>", "velocity_decay"},
     {In::kLink, "<must_be_base_link>1</must_be_base_link>", "must_be_base_link"},
     {In::kLink, "<battery name='b'><voltage>12</voltage></battery>", "battery"},
+    {In::kLink, "<roboss:radio name='r'><channel>3</channel></roboss:radio>"},
     {In::kLink, "<sensor name='i' type='imu'/>"},
     {In::kLink, "<sensor name='a' type='altimeter'/>"},
     {In::kLink, "<sensor name='a' type='air_speed'/>"},
