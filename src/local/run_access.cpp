@@ -40,8 +40,10 @@ std::vector<const RobotState*> RunAccess::pointers() const {
 
 RayScene& RunAccess::ray_scene() {
     if (!rays_) rays_ = std::make_unique<RayScene>(model_), rays_->set_threads(ray_threads());
-    if (!rays_are_new_) rays_->update(pointers());
-    rays_are_new_ = true;
+    if (!rays_are_new_) {  // once made, several threads may ask (measure_all)
+        rays_->update(pointers());
+        rays_are_new_ = true;
+    }
     return *rays_;
 }
 
