@@ -11,7 +11,6 @@ set(ROBOSS_EXTERNALS
   "^assimp" "find_dependency(assimp)"
   "^PNG::" "find_dependency(PNG)"
   "^libjpeg-turbo::" "find_dependency(libjpeg-turbo)"
-  "^embree$" "find_dependency(embree 3)"
   "^SQLite::SQLite3$" "find_dependency(SQLite3)"
   "^fastrtps$" "find_dependency(fastcdr 1)\nfind_dependency(fastrtps 2.9)"
   "^fastcdr$" "find_dependency(fastcdr 1)"

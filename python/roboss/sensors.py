@@ -74,8 +74,8 @@ class Sensor:
         return {self._shaped(name, *rest)[0]: rest[0] for name, *rest in columns if self._measures(name, *rest)}
 
     def _measures(self, name: str, unit: str, kind: str, values, counts: list[int], image: list[int]) -> bool:
-        """Whether a camera of this type gives the value."""
-        if kind == "image":
+        """Whether a sensor of this type gives the value, in this world."""
+        if kind == "image" or name == "intensities":
             return sum(counts) > 0
         boxed = self.kind == "box camera" and name in ("boxes", "positions", "orientations", "sizes")
         return not boxed or (name == "boxes") == (not self._is_3d)

@@ -80,8 +80,7 @@ void add(Column& column, T value) {
 /// Adds the readings of the robots of one run.
 Result<> read_all(RunAccess& run, const std::vector<std::uint32_t>& robots, std::size_t sensor,
                   std::vector<Column>& columns) {
-    for (const std::uint32_t robot : robots) {
-        const Result<Sample> sample = run.read(RobotId(robot), sensor);
+    for (const Result<Sample>& sample : run.read_all(robots, sensor)) {
         if (!sample) return sample.error();
         std::size_t at = 0;
         visit_fields(sample.value(), [&](const ReadingField& field, const auto& value) {

@@ -68,3 +68,33 @@ def test_reads_the_same_as_one_by_one():
         together = cars[name].read()
         alone = np.concatenate([cars[number][name].read() for number in (0, 7, 49)])
         assert np.array_equal(together[[0, 7, 49]], alone)
+
+
+def test_an_arm_with_infrared_effort_and_stereo_cameras():
+    world = """<sdf version="1.9" xmlns:roboss="urn:roboss:1"><world name="w">
+    <model name="wall"><static>true</static><pose>1.5 0 1 0 0 0</pose><link name="l"><collision name="c">
+    <laser_retro>40</laser_retro><geometry><box><size>1 9 9</size></box></geometry></collision></link></model>
+    <model name="arm"><link name="base"><inertial><mass>1</mass></inertial>
+    <roboss:sensor name="ir" type="infrared"><pose>0 0 0.5 0 0 0</pose><max>2</max></roboss:sensor>
+    <roboss:sensor name="effort" type="joint_effort"><joint>hinge</joint></roboss:sensor>
+    <sensor name="imu" type="imu"><imu><orientation_reference_frame><localization>NED</localization>
+    </orientation_reference_frame></imu></sensor>
+    <sensor name="scan" type="lidar"><lidar><scan><horizontal><roboss:angles>-0.5 0 0.3</roboss:angles></horizontal></scan>
+    <range><min>.01</min><max>5</max></range></lidar></sensor></link>
+    <link name="rod"><pose>0 0 2 0 0 0</pose><inertial><pose>0.5 0 0 0 0 0</pose><mass>2</mass></inertial></link>
+    <joint name="weld" type="fixed"><parent>world</parent><child>base</child></joint>
+    <joint name="hinge" type="revolute"><parent>base</parent><child>rod</child><axis><xyz>0 1 0</xyz>
+    <limit><lower>0</lower><upper>1</upper></limit></axis></joint></model></world></sdf>"""
+    sim = roboss.Simulation(roboss.load(world), threads=1)
+    arm = sim.robots("arm")
+    assert np.isclose(arm["ir"].read()[0], 1.0)
+    scan = arm["scan"].read_all()
+    assert np.allclose(scan["ranges"], [1 / np.cos([-0.5, 0, 0.3])])
+    assert np.array_equal(scan["intensities"], [[40, 40, 40]])
+    # north is y, down is -z: x of the base, which looks east, has the coordinates (0, 1, 0)
+    quat = arm["imu"].read_all()["orientation_quat_xyzw"][0]
+    assert np.allclose(np.abs(quat), [0.5**0.5, 0.5**0.5, 0, 0], atol=1e-9)
+    sim.robots("arm").set_joint_targets(0.2, mode="position")
+    sim.step(1000)
+    angle = sim.robots("arm").joint_position[0, 0]
+    assert np.isclose(arm["effort"].read()[0, 0], -2 * 9.8 * 0.5 * np.cos(angle), rtol=1e-3)

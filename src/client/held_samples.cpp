@@ -14,7 +14,7 @@ using wire::Of;
 using wire::Reader;
 using wire::Writer;
 
-constexpr std::uint32_t kFormat = 1;
+constexpr std::uint32_t kFormat = 2;
 
 /// Writes or reads the values of a reading.
 template <class A>

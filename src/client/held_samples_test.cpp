@@ -39,7 +39,7 @@ TEST(SamplesBegun, ThereIsAtMostOneSampleATick) {
 }
 
 LaserReading laser(Tick tick) {
-    return {2, 1, {0.5, std::numeric_limits<double>::infinity()}, tick};
+    return {2, 1, {0.5, std::numeric_limits<double>::infinity()}, {0.5, 3}, tick};
 }
 
 HeldSamples some() {

@@ -9,10 +9,14 @@ namespace roboss {
 
 /// One parameter of a kind: its name in code, hashes and the viewer's JSON, and its element in SDF.
 struct Parameter {
-    const char* name;       ///< unique in its kind
-    const char* element;    ///< path below the element of the thing: "scan/horizontal/samples"; "a|b": a or b
+    const char* name;     ///< unique in its kind
+    const char* element;  ///< path below the element of the thing: "scan/horizontal/samples"; "a|b": a or b;
+                          ///< "a/@b": attribute b of a, of texts
     const char* unit = "";  ///< "rad": the element may have degrees="true"
     bool infinite = false;  ///< whether infinity is a value of it
+    /// Of a sensor: it was added after Models of its kind were hashed. Its default is not hashed, so those
+    /// Models keep their hashes.
+    bool later = false;
 };
 
 /// Joints of the model, by name ("inner::joint" in nested models).

@@ -52,6 +52,7 @@ class LocalRun final : public RunAccess {
     std::uint64_t seed() const override { return seed_; }
     const std::vector<RobotState>& states() const override { return states_; }
     std::size_t threads() const { return stepper_.threads(); }  ///< that step
+    unsigned ray_threads() const override { return static_cast<unsigned>(threads()); }
 
     /// Takes effect at the beginning of the next tick that is stepped, in the order in which they were given.
     /// An Error says why check_order() refuses it.

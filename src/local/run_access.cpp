@@ -32,6 +32,15 @@ Result<std::vector<RadioMessage>> RunAccess::received(RobotId robot, std::size_t
     return receive({*model_, robot, sensor, state(robot), tick(), seed(), *this, since});
 }
 
+std::vector<Result<Sample>> RunAccess::read_all(std::span<const std::uint32_t> robots, std::size_t sensor) {
+    std::vector<SensorQuery> queries;
+    for (const std::uint32_t robot : robots) {
+        if (robot >= states().size()) return {read(RobotId(robot), sensor)};
+        queries.push_back({*model_, RobotId(robot), sensor, state(RobotId(robot)), tick(), seed(), *this});
+    }
+    return measure_all(queries);
+}
+
 std::vector<const RobotState*> RunAccess::pointers() const {
     std::vector<const RobotState*> all;
     for (const RobotState& state : states()) all.push_back(&state);
@@ -39,9 +48,11 @@ std::vector<const RobotState*> RunAccess::pointers() const {
 }
 
 RayScene& RunAccess::ray_scene() {
-    if (!rays_) rays_ = std::make_unique<RayScene>(model_);
-    if (!rays_are_new_) rays_->update(pointers());
-    rays_are_new_ = true;
+    if (!rays_) rays_ = std::make_unique<RayScene>(model_), rays_->set_threads(ray_threads());
+    if (!rays_are_new_) {  // once made, several threads may ask (measure_all)
+        rays_->update(pointers());
+        rays_are_new_ = true;
+    }
     return *rays_;
 }
 

@@ -26,6 +26,8 @@ class RunAccess : private SensorSources {
     const std::shared_ptr<const Model>& shared_model() const { return model_; }  ///< the same
     virtual Tick tick() const = 0;           ///< the world is at its beginning
     virtual std::uint64_t seed() const = 0;  ///< of sensor noise
+    /// Threads that cast the rays of sensors. No bit depends on it.
+    virtual unsigned ray_threads() const { return 1; }
     /// Simulated time since the start of the world, s.
     double time_s() const { return static_cast<double>(tick()) * model_->dt_s; }
     /// All states at tick(), by RobotId.
@@ -49,6 +51,8 @@ class RunAccess : private SensorSources {
     /// restored; by time of arrival. Messages are kept for a second (docs/radio.md): ask as often. An Error
     /// as read(). read() gives all that are still kept.
     Result<std::vector<RadioMessage>> received(RobotId robot, std::size_t sensor);
+    /// As read(), of several robots, in their order; lasers and other sensors of rays on all threads.
+    std::vector<Result<Sample>> read_all(std::span<const std::uint32_t> robots, std::size_t sensor);
     /// All contact points of the tick that begins at tick(), as long as no order takes effect at it
     /// (physics/probe.h). Valid until the world is changed.
     std::span<const ContactReport> contacts() { return step_probe().contacts(); }

@@ -57,6 +57,7 @@ void add_statics(const ModelSpec& spec, const ModelInstance& instance, RobotId o
                 shape.X_WS = to_transform(instance.X_WM * link.X_ML * collision.X_LS);
                 shape.X_WS.p += shape.X_WS.R * placed.p_CS;
                 shape.material = to_material(collision.surface);
+                shape.laser_retro = collision.laser_retro;
                 shape.name = instance.name + "::" + link.name + "::" + collision.name;
                 shape.robot = owner;
                 if (owner.valid()) shape.link = LinkId(l);

@@ -277,6 +277,7 @@ class PartBuilder {
                 if (!collision.surface.fdir1_link.empty())
                     turned_.emplace_back(part_.type.shapes.size(), collision.surface.fdir1_link);
                 shape.moves = collision.moves;
+                shape.laser_retro = collision.laser_retro;
                 part_.type.shapes.push_back(shape);
             }
         }

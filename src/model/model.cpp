@@ -80,6 +80,7 @@ void add_shape(Hash& hash, const BodyShape& s) {
     if (s.direction_body >= 0) add(hash, s.direction_body);
     if (s.shape.hull != nullptr) hash.add(s.shape.hull->hash);
     if (!s.moves) add(hash, 1);
+    if (s.laser_retro != 0) hash.add(std::string_view("retro")), hash.add(s.laser_retro);
 }
 
 void add_drag(Hash& hash, const LinkDrag& drag) {

@@ -178,7 +178,8 @@ struct BodyShape {
     Material material;  ///< of its surface
     /// Body in whose frame Material::direction_S is (rollers of a mecanum wheel); -1: in the shape's own.
     int direction_body = -1;
-    bool moves = true;  ///< whether it takes part in the surface motion of its link
+    bool moves = true;       ///< whether it takes part in the surface motion of its link
+    double laser_retro = 0;  ///< the intensity that lasers read
 };
 
 /// Drag of one link: force = -(density / 2 * |A(u)| |u| + linear) * u at its centre of mass, with u its
@@ -323,14 +324,15 @@ struct Robot {
 
 /// A collision shape of the scenery.
 struct StaticShape {
-    Shape shape;          ///< kind and dimensions
-    Transform X_WS;       ///< shape in the world
-    Material material;    ///< of its surface
-    std::string name;     ///< "model::link::collision"
-    RobotId robot;        ///< of the sensors and controllers that its own link carries, if any
-    LinkId link;          ///< of `robot`, if any
-    SurfaceFlow flow;     ///< of its surface, always
-    bool driven = false;  ///< its surface moves as the state of `robot` says of `link`
+    Shape shape;             ///< kind and dimensions
+    Transform X_WS;          ///< shape in the world
+    Material material;       ///< of its surface
+    std::string name;        ///< "model::link::collision"
+    RobotId robot;           ///< of the sensors and controllers that its own link carries, if any
+    LinkId link;             ///< of `robot`, if any
+    SurfaceFlow flow;        ///< of its surface, always
+    bool driven = false;     ///< its surface moves as the state of `robot` says of `link`
+    double laser_retro = 0;  ///< the intensity that lasers read
 
     /// Whether its surface moves, or may.
     bool may_flow() const { return driven || flow.moves(); }

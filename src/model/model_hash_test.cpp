@@ -102,6 +102,7 @@ TEST(ModelHash, ChangesWithTheWorld) {
         {"scenery size", [](World& w) { w.prototypes[0].links[0].collisions[0].geometry.size.x = 1.5; }},
         {"scenery friction", [](World& w) { w.prototypes[0].links[0].collisions[0].surface.mu = 0.4; }},
         {"scenery place", [](World& w) { w.instances[0].X_WM.p.y = 1; }},
+        {"scenery retro", [](World& w) { w.prototypes[0].links[0].collisions[0].laser_retro = 3; }},
     });
 }
 
@@ -122,6 +123,7 @@ TEST(ModelHash, ChangesWithLinksAndShapes) {
         {"shape kind",
          [](World& w) { robot(w).links[3].collisions[0].geometry.kind = GeometryKind::kSphere; }},
         {"shape place", [](World& w) { robot(w).links[3].collisions[0].X_LS.p.z = 0.01; }},
+        {"retro", [](World& w) { robot(w).links[3].collisions[0].laser_retro = 3; }},
         {"radius", [](World& w) { robot(w).links[0].collisions[1].geometry.radius = 0.11; }},
         {"length", [](World& w) { robot(w).links[1].collisions[1].geometry.length = 0.21; }},
         {"friction", [](World& w) { robot_surface(w).mu = 0.6; }},
@@ -228,6 +230,14 @@ TEST(ModelHash, ChangesWithEveryParameterOfEverySensor) {
     [&]<class... Kinds>(std::in_place_type_t<std::variant<Kinds...>>) {
         (changes(Kinds{}), ...);
     }(std::in_place_type<SensorParameters>);
+}
+
+TEST(ModelHash, ChangesWithABiasThatWanders) {
+    expect_each_changes_the_hash({
+        {"bias that wanders", [](World& w) { sensor(w).as<LaserSpec>()->noise.dynamic_bias_stddev = 0.1; }},
+        {"its correlation time",
+         [](World& w) { sensor(w).as<LaserSpec>()->noise.dynamic_bias_correlation_time = 10; }},
+    });
 }
 
 TEST(ModelHash, ChangesWithTheAccuracy) {

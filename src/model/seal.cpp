@@ -62,6 +62,7 @@ std::uint64_t model_hash(const Model& model) {
         if (s.flow.moves())
             for (const Vec3& v : {s.flow.linear, s.flow.angular, s.flow.belt, s.flow.at})
                 hash.add(v.x), hash.add(v.y), hash.add(v.z);
+        if (s.laser_retro != 0) hash.add(std::string_view("retro")), hash.add(s.laser_retro);
         if (s.driven)
             hash.add(static_cast<std::uint64_t>(s.robot.value)),
                 hash.add(static_cast<std::uint64_t>(s.link.value));

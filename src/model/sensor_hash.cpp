@@ -12,6 +12,9 @@ namespace {
 
 void add_value(Hash& hash, const NoiseSpec& n) {
     for (double x : {n.mean, n.stddev, n.bias_mean, n.bias_stddev, n.precision}) hash.add(x);
+    if (n.dynamic_bias_stddev == 0 && n.dynamic_bias_correlation_time == 0) return;
+    hash.add(std::string_view("dynamic"));
+    for (double x : {n.dynamic_bias_stddev, n.dynamic_bias_correlation_time}) hash.add(x);
 }
 
 void add_value(Hash& hash, int value) {
@@ -20,6 +23,10 @@ void add_value(Hash& hash, int value) {
 
 void add_value(Hash& hash, double value) {
     hash.add(value);
+}
+
+void add_value(Hash& hash, bool value) {
+    add_value(hash, value ? 1 : 0);
 }
 
 void add_value(Hash& hash, const Vec3& v) {
@@ -45,6 +52,19 @@ void add_value(Hash& hash, const Pose& X) {
     for (const double x : {X.q.w, X.q.x, X.q.y, X.q.z}) hash.add(x);
 }
 
+/// Hashes of the values of parameters that were added later, in their order.
+struct LaterValues {
+    std::vector<std::uint64_t> hashes;
+
+    template <class Value>
+    void operator()(const Parameter& p, const Value& value) {
+        if (!p.later) return;
+        Hash hash;
+        add_value(hash, value);
+        hashes.push_back(hash.value());
+    }
+};
+
 /// The record; parameters that are not in it go to `rest`.
 struct Record {
     std::array<std::pair<std::string_view, double>, 8> numbers{{{"min_angle", 0},
@@ -65,19 +85,29 @@ struct Record {
     JointNames joints;
     Hash rest;
     bool has_rest = false;
+    std::vector<std::uint64_t> usual;  // hashes of the defaults of parameters that were added later
+    std::size_t later = 0;             // of them, how many were visited
 
-    void operator()(const Parameter& p, double value) { put(numbers, p, value); }
-    void operator()(const Parameter& p, int value) { put(counts, p, value); }
-    void operator()(const Parameter& p, const NoiseSpec& noise) { put(noises, p, noise); }
-    void operator()(const Parameter&, const JointNames& names) { joints = names; }
-    void operator()(const Parameter& p, bool value) { keep(p, value ? 1 : 0); }
-    void operator()(const Parameter& p, const Vec3& value) { keep(p, value); }
-    void operator()(const Parameter& p, const std::string& value) { keep(p, value); }
-    void operator()(const Parameter& p, const std::vector<std::string>& value) { keep(p, value); }
-    void operator()(const Parameter& p, const std::vector<double>& value) { keep(p, value); }
-    void operator()(const Parameter& p, const Pose& value) { keep(p, value); }
+    template <class Value>
+    void operator()(const Parameter& p, const Value& value) {
+        if (!p.later) return add(p, value);
+        Hash hash;
+        add_value(hash, value);
+        if (hash.value() != usual[later++]) keep(p, value);
+    }
 
   private:
+    void add(const Parameter& p, double value) { put(numbers, p, value); }
+    void add(const Parameter& p, int value) { put(counts, p, value); }
+    void add(const Parameter& p, const NoiseSpec& noise) { put(noises, p, noise); }
+    void add(const Parameter&, const JointNames& names) { joints = names; }
+    void add(const Parameter& p, bool value) { keep(p, value ? 1 : 0); }
+    void add(const Parameter& p, const Vec3& value) { keep(p, value); }
+    void add(const Parameter& p, const std::string& value) { keep(p, value); }
+    void add(const Parameter& p, const std::vector<std::string>& value) { keep(p, value); }
+    void add(const Parameter& p, const std::vector<double>& value) { keep(p, value); }
+    void add(const Parameter& p, const Pose& value) { keep(p, value); }
+
     template <class Slots, class Value>
     void put(Slots& slots, const Parameter& parameter, const Value& value) {
         for (auto& [name, slot] : slots)
@@ -100,7 +130,15 @@ struct Record {
 void add_to_hash(Hash& hash, const SensorInfo& info) {
     const SensorSpec& s = info.spec;
     Record record;
-    visit_parameters(s.parameters, record);
+    std::visit(
+        [&]<class Kind>(const Kind& parameters) {
+            LaterValues usual;
+            const Kind defaults{};
+            Kind::parameters(usual, defaults);
+            record.usual = std::move(usual.hashes);
+            Kind::parameters(record, parameters);
+        },
+        s.parameters);
     hash.add(std::string_view(s.name)), hash.add(std::string_view(s.sdf_type));
     for (double x : {s.X_LS.p.x, s.X_LS.p.y, s.X_LS.p.z, s.X_LS.q.w, s.X_LS.q.x, s.X_LS.q.y, s.X_LS.q.z,
                      s.update_rate_hz})

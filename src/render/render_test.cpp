@@ -63,6 +63,22 @@ TEST(Render, DepthOfASphereIsThatOfTheClosedForm) {
     EXPECT_GT(hits, 100);
 }
 
+TEST(Render, AVisualIsSeenIfItsFlagsAndTheMaskHaveABitInCommon) {
+    Scene scene = scene_of({box({4, 0, 0}, {2, 9, 9}), box({8, 0, 0}, {2, 9, 9})});
+    scene.statics[0].visibility_flags = 6, scene.statics[1].visibility_flags = 8;
+    const Room room(scene);
+    const auto depth = [&](double mask) {
+        CameraView from = view({}, 8, 8, 0.5);
+        from.optics.visibility_mask = mask;
+        const Sighting one = sight(room.cameras, from, 0.1, 100).at(27);
+        return one.item == render::kNothing ? -1 : one.depth;
+    };
+    EXPECT_NEAR(depth(4294967295), 3, 1e-12);
+    EXPECT_NEAR(depth(2), 3, 1e-12);
+    EXPECT_NEAR(depth(9), 7, 1e-12) << "the nearer one is not seen";
+    EXPECT_EQ(depth(1), -1);
+}
+
 TEST(Render, DepthOfAPlaneAndABoxIsThatOfTheClosedForm) {
     const Room room(scene_of({ground(400), box({8, 0, 1}, {2, 2, 2})}));
     const CameraView from = view({0, 0, 1.5}, 64, 48, 1);

@@ -32,9 +32,10 @@ struct TraceItem {
     double R_WS[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};  // row by row
     double p_WS[3] = {0, 0, 0};                    // m
     TraceKind kind = TraceKind::kBox;
-    double size[3] = {0, 0, 0};  // half edges or radii; cylinder, capsule, cone: radius, half length
-    std::uint32_t mesh = 0;      // in TraceWorld::meshes
-    bool casts = true;           // shadows
+    double size[3] = {0, 0, 0};        // half edges or radii; cylinder, capsule, cone: radius, half length
+    std::uint32_t mesh = 0;            // in TraceWorld::meshes
+    bool casts = true;                 // shadows
+    std::uint32_t flags = 0xFFFFFFFF;  // rays see it whose `mask` has one of these bits
 };
 
 struct TraceTree {
@@ -54,8 +55,9 @@ struct alignas(32) RayPacket {
     float origin[3][kPacket];     // m, from `eye`, world axes
     float direction[3][kPacket];  // any length; t is in units of it
     float t_min[kPacket], t_max[kPacket];
-    double eye[3] = {0, 0, 0};  // m, world
-    unsigned active = 0;        // bit i: lane i counts
+    double eye[3] = {0, 0, 0};        // m, world
+    unsigned active = 0;              // bit i: lane i counts
+    std::uint32_t mask = 0xFFFFFFFF;  // of the items that are seen
     /// Of these items, back faces are not seen: the camera looks out of its own housing.
     std::uint32_t hollow_first = 0, hollow_last = 0;
 };

@@ -136,7 +136,7 @@ class LaneTracer final : public Tracer {
 
     static void visit_item(std::uint32_t number, const V& origin, const V& direction, State& s) {
         const TraceItem& item = s.world.items[number];
-        if (s.hits == nullptr && !item.casts) return;
+        if ((s.hits == nullptr && !item.casts) || (item.flags & s.packet.mask) == 0) return;
         const bool hollow = number >= s.packet.hollow_first && number < s.packet.hollow_last;
         const double* R = item.R_WS;
         const double w[3] = {s.packet.eye[0] - item.p_WS[0], s.packet.eye[1] - item.p_WS[1],

@@ -25,6 +25,7 @@ void aim(const CameraView& view, const Lens& lens, int column, int row, double d
     block.column = column, block.row = row, block.lit = 0;
     RayPacket& rays = block.rays;
     for (std::size_t k = 0; k < 3; ++k) rays.eye[k] = view.X_WC.p[k];
+    rays.mask = static_cast<std::uint32_t>(view.optics.visibility_mask);
     rays.hollow_first = view.housing.first, rays.hollow_last = view.housing.last;
     constexpr double kFarthest = 1e9;
     const auto near = static_cast<float>(view.optics.near);

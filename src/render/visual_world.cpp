@@ -62,6 +62,7 @@ VisualShape VisualWorld::shape_of(const SceneShape& from) const {
     shape.item.kind = static_cast<TraceKind>(from.kind);
     set_size(shape.item, from);
     shape.item.mesh = static_cast<std::uint32_t>(from.mesh);
+    shape.item.flags = from.visibility_flags;
     shape.item.casts = from.casts && from.alpha >= kCastsFrom;
     shape.X_FS = to_transform(from.frame);
     Material& to = shape.material;

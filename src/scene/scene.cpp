@@ -136,6 +136,7 @@ class SceneMaker {
         shape->label = visual.label;
         shape->labels_model = visual.labels_model;
         shape->temperature = visual.temperature;
+        shape->visibility_flags = visual.visibility_flags;
         shapes.push_back(std::move(*shape));
     }
 

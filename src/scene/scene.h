@@ -37,9 +37,10 @@ struct SceneShape {
     bool casts = true;   // shadows
     bool still = false;  // of a collision shape: it takes no part in the surface motion of its link
     SceneFinish finish;
-    int label = 0;                      // VisualSpec::label
-    bool labels_model = false;          // VisualSpec::labels_model
-    std::optional<double> temperature;  // K
+    int label = 0;                                // VisualSpec::label
+    bool labels_model = false;                    // VisualSpec::labels_model
+    std::optional<double> temperature;            // K
+    std::uint32_t visibility_flags = 0xFFFFFFFF;  // VisualSpec::visibility_flags
 };
 
 struct SceneMesh {

@@ -60,6 +60,11 @@ int read_label(const Element& plugin, const Import& import);
 SensorSpec convert_sensor(const Element& sensor, const Pose& X_LS, const std::string& scope,
                           const Import& import);
 
+/// The cameras of a <sensor type="multicamera">, each a sensor named SENSOR/CAMERA; none of another sensor,
+/// or where it has no <camera>.
+std::vector<SensorSpec> convert_multicamera(const Element& sensor, const Pose& X_LS, const std::string& scope,
+                                            const Import& import);
+
 struct PluginSensor;
 /// Plugins and other extensions under `parent`, a part of a model: controllers run on board, those that
 /// publish become sensors, which are appended to `sensors`; the rest is reported. `scope` is the prefix of

@@ -28,6 +28,7 @@ bool is_ours_here(const char* parent, const char* name) {
     if (is(name, "roboss:motor")) return is(parent, "joint") || is(parent, "axis") || is(parent, "axis2");
     if (is(name, "roboss:surface_velocity")) return is(parent, "link") || is(parent, "collision");
     if (is(name, "roboss:actor")) return is(parent, "model");
+    if (is(name, "roboss:angles")) return is(parent, "horizontal") || is(parent, "vertical");
     if (is(name, "roboss:rolling_friction")) return is(parent, "collision") || is(parent, "surface");
     return false;
 }
@@ -61,7 +62,9 @@ void convert_extension(const Element& element, const std::string& scope, const I
         "Known: <roboss:sensor>, <roboss:radio>, <roboss:drag> and <roboss:gripper> in a link, "
         "<roboss:joint> in a joint, "
         "<roboss:motor> in a joint or axis, <roboss:rolling_friction> in a collision or surface, "
-        "<roboss:surface_velocity> in a link or collision.");
+        "<roboss:surface_velocity> in a link or collision, <roboss:angles> in <horizontal> or <vertical> of "
+        "a lidar's "
+        "<scan>.");
 }
 
 }  // namespace

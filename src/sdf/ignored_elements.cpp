@@ -28,7 +28,6 @@ constexpr IgnoredElement kIgnored[] = {
     {"link", "audio_source", "", kNote, "sound is not simulated", ""},
     {"link", "audio_sink", "", kNote, "sound is not simulated", ""},
     {"link", "particle_emitter", "", kNote, "particles are not simulated", ""},
-    {"collision", "laser_retro", "", kNote, "laser readings have ranges and no intensities", ""},
     {"contact", "collide_without_contact_bitmask", "", kNote, "shapes that meet by their bitmasks do collide",
      "Give the shape a <collide_bitmask> of 0 to keep it from colliding."},
     {"metal", "environment_map", "", kNote, "the viewer has its own sky", ""},

@@ -3,6 +3,9 @@
 
 #include <algorithm>
 #include <cstring>
+#include <iterator>
+#include <map>
+#include <optional>
 #include <set>
 
 #include "sdf/ignored_elements.h"
@@ -53,6 +56,7 @@ class ModelConverter {
             convert_nested(*scope.model.ModelByIndex(i), scope);
         for (std::uint64_t i = 0; i < scope.model.FrameCount(); ++i)
             convert_frame(*scope.model.FrameByIndex(i), scope);
+        if (scope.prefix.empty()) find_joints_of_sensors();
         const std::string canonical = scope.prefix + scope.model.CanonicalLinkAndRelativeName().second;
         for (PluginSensor& sensor : sensors)
             attach_plugin_sensor(std::move(sensor), canonical, scope.X_MS, import_, spec_);
@@ -186,7 +190,28 @@ class ModelConverter {
         for (const auto node : source.node.children()) {
             if (node.type() == pugi::node_element) convert_part({source.source, node}, link, scope, spec);
         }
+        convert_retro(source, spec);
         spec_.links.push_back(std::move(spec));
+    }
+
+    /// What beams read of the link's visuals, which gz-sim's lidars see: of the one of the same name, or else
+    /// of the first that says so. A collision's own <laser_retro> (of Gazebo Classic) comes first.
+    void convert_retro(const Element& link, LinkSpec& spec) {
+        std::optional<double> first;
+        std::map<std::string, double> by_name;
+        for (const auto node : link.node.children("visual")) {
+            const Element visual{link.source, node};
+            if (!visual.child("laser_retro")) continue;
+            const double retro = import_.reader.number(visual, "laser_retro", 0);
+            first = first.value_or(retro);
+            by_name.emplace(visual.name(), retro);
+        }
+        if (!first) return;
+        for (CollisionSpec& collision : spec.collisions) {
+            const auto own = by_name.find(collision.name);
+            if (collision.laser_retro == 0)
+                collision.laser_retro = own != by_name.end() ? own->second : *first;
+        }
     }
 
     void convert_link_flags(const Element& source, LinkSpec& spec) {
@@ -224,7 +249,9 @@ class ModelConverter {
         } else if (std::strcmp(tag, "sensor") == 0 || std::strcmp(tag, "roboss:sensor") == 0 ||
                    std::strcmp(tag, "roboss:radio") == 0) {
             const Pose X_LS = pose_of(part, link.SensorByName(part.name()), link);
-            spec.sensors.push_back(convert_sensor(part, X_LS, scope.prefix, import_));
+            std::vector<SensorSpec> cameras = convert_multicamera(part, X_LS, scope.prefix, import_);
+            if (cameras.empty()) cameras.push_back(convert_sensor(part, X_LS, scope.prefix, import_));
+            std::ranges::move(cameras, std::back_inserter(spec.sensors));
         }
     }
 
@@ -247,6 +274,27 @@ class ModelConverter {
         for (const auto node : source.node.children("sensor"))
             convert_joint_sensor({source.source, node}, *spec, scope);
         spec_.joints.push_back(std::move(*spec));
+    }
+
+    /// A force-torque sensor in a <link> measures the joint that holds the link.
+    void find_joints_of_sensors() {
+        for (LinkSpec& link : spec_.links) {
+            const auto holds = [&](const JointSpec& joint) { return joint.child == link.name; };
+            for (SensorSpec& sensor : link.sensors) {
+                auto* force_torque = sensor.as<ForceTorqueSpec>();
+                if (force_torque == nullptr || !force_torque->joint.empty()) continue;
+                const auto joint = std::ranges::find_if(spec_.joints, holds);
+                if (joint != spec_.joints.end()) {
+                    force_torque->joint = joint->name;
+                    continue;
+                }
+                import_.diagnostics().warning(sensor.where, "joint-sensor",
+                                              "force-torque sensor '" + sensor.name + "' is in link '" +
+                                                  link.name + "', which no joint holds; it measures nothing",
+                                              "Put it in the <joint> that it measures.");
+                sensor.parameters = UnsupportedSensor{};
+            }
+        }
     }
 
     /// A force-torque sensor: it stands on the joint's child link.

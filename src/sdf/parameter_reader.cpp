@@ -77,10 +77,12 @@ NoiseSpec read_noise(const Element& noise, const Import& import) {
     spec.bias_mean = reader.number(noise, "bias_mean", 0);
     spec.bias_stddev = reader.number(noise, "bias_stddev", 0);
     if (type == "gaussian_quantized") spec.precision = reader.number(noise, "precision", 0);
-    if (reader.number(noise, "dynamic_bias_stddev", 0) != 0) {
-        import.diagnostics().note(noise.where(), "noise",
-                                  "a bias that drifts (<dynamic_bias_stddev>) is still to come");
-    }
+    spec.dynamic_bias_stddev = reader.number(noise, "dynamic_bias_stddev", 0);
+    spec.dynamic_bias_correlation_time = reader.number(noise, "dynamic_bias_correlation_time", 0);
+    if (spec.dynamic_bias_stddev != 0 && spec.dynamic_bias_correlation_time == 0)
+        import.diagnostics().note(noise.child("dynamic_bias_stddev").where(), "noise",
+                                  "<dynamic_bias_stddev> has no effect without a correlation time",
+                                  "Write <dynamic_bias_correlation_time> in s.");
     return spec;
 }
 
@@ -100,6 +102,10 @@ void ParameterReader::read(const Parameter&, const Element& parent, const std::s
 }
 void ParameterReader::read(const Parameter&, const Element& parent, const std::string& name,
                            std::string& value) const {
+    if (name[0] == '@') {  // an attribute
+        if (const auto written = parent.node.attribute(name.c_str() + 1)) value = trimmed(written.value());
+        return;
+    }
     if (const Element element = parent.child(name.c_str())) value = trimmed(element.node.text().get());
 }
 void ParameterReader::read(const Parameter&, const Element& parent, const std::string& name,

@@ -49,14 +49,15 @@ void complete(EnvironmentalSpec& spec, const Element& sensor, const std::string&
 }
 
 /// Formats of pixels that are not kept, and what stands beside the block: the ThermalSensor plugin.
-void complete_camera(SensorParameters& parameters, const Element& sensor, const Import& import) {
+void complete_camera(SensorParameters& parameters, const Element& sensor, const Element& camera,
+                     const Import& import) {
     std::string* format = nullptr;
-    if (auto* camera = std::get_if<ColorCameraSpec>(&parameters)) format = &camera->format;
-    if (auto* camera = std::get_if<RgbdCameraSpec>(&parameters)) format = &camera->format;
+    if (auto* color = std::get_if<ColorCameraSpec>(&parameters)) format = &color->format;
+    if (auto* rgbd = std::get_if<RgbdCameraSpec>(&parameters)) format = &rgbd->format;
     if (format != nullptr && !is_one_of("R8G8B8|RGB_INT8|B8G8R8|BGR_INT8|L8|L_INT8|RGB_INT32|", *format) &&
         !format->empty()) {
         import.diagnostics().warning(
-            sensor.child("camera").child("image").where(), "sensor",
+            camera.child("image").where(), "sensor",
             "images of <format> '" + *format + "' are not made; it is taken as R8G8B8",
             "Use R8G8B8, B8G8R8 or L8.");
         *format = "R8G8B8";
@@ -89,6 +90,11 @@ void report_unsupported(const Element& sensor, const SensorSpec& spec, const Imp
             sensor.where(), "sensor",
             "<roboss:sensor> '" + spec.name + "' has the type '" + spec.sdf_type + "', which is not known",
             "Use " + own_types() + ", or a <sensor> of SDFormat.");
+    else if (spec.sdf_type == "multicamera")
+        import.diagnostics().warning(
+            sensor.where(), "sensor",
+            "sensor '" + spec.name + "' has no <camera> element and measures nothing",
+            "Add a <camera> with its parameters.");
     else
         import.diagnostics().warning(
             sensor.where(), "sensor-to-come",
@@ -118,13 +124,34 @@ SensorParameters read_parameters(const Element& sensor, const SensorSpec& spec, 
     const ParameterReader reader{block, scope, import};
     visit_parameters(parameters, reader);
     report_ignored(block, kind.ignored, kind.phrase, import);
-    complete_camera(parameters, sensor, import);
+    complete_camera(parameters, sensor, block, import);
     if (auto* environmental = std::get_if<EnvironmentalSpec>(&parameters))
         complete(*environmental, sensor, spec.sdf_type, import);
     return parameters;
 }
 
 }  // namespace
+
+std::vector<SensorSpec> convert_multicamera(const Element& sensor, const Pose& X_LS, const std::string& scope,
+                                            const Import& import) {
+    std::vector<SensorSpec> cameras;
+    if (type_of(sensor) != "multicamera") return cameras;
+    for (const auto node : sensor.node.children("camera")) {
+        const Element camera{sensor.source, node};
+        SensorSpec& spec = cameras.emplace_back();
+        const std::string own = camera.name().empty() ? std::to_string(cameras.size()) : camera.name();
+        spec.name = sensor.name() + "/" + own;
+        spec.sdf_type = "multicamera";
+        spec.where = camera.where();
+        spec.X_LS = X_LS;
+        spec.update_rate_hz = import.reader.number(sensor, "update_rate", 0);
+        spec.parameters = ColorCameraSpec{};
+        visit_parameters(spec.parameters, ParameterReader{camera, scope, import});
+        report_ignored(camera, ColorCameraSpec::kKind.ignored, ColorCameraSpec::kKind.phrase, import);
+        complete_camera(spec.parameters, sensor, camera, import);
+    }
+    return cameras;
+}
 
 SensorSpec convert_sensor(const Element& sensor, const Pose& X_LS, const std::string& scope,
                           const Import& import) {

@@ -85,7 +85,7 @@ TEST(Sensors, OurOdometerAndGyrocompassAreRead) {
     EXPECT_NE(first(compass).as<CompassSpec>(), nullptr);
 }
 
-TEST(Sensors, AnImuHasNoiseForEachAxisAndNamesWhatItDoesNotMeasure) {
+TEST(Sensors, AnImuHasNoiseForEachAxisAndAReferenceFrame) {
     const Loaded loaded = with_sensor(
         "<sensor name='s' type='imu'><imu><angular_velocity><y><noise type='gaussian'><stddev>0.01</stddev>"
         "</noise></y></angular_velocity><linear_acceleration><z><noise type='gaussian'><mean>0.1</mean>"
@@ -97,12 +97,19 @@ TEST(Sensors, AnImuHasNoiseForEachAxisAndNamesWhatItDoesNotMeasure) {
     EXPECT_EQ(imu.angular_velocity_x, NoiseSpec{});
     EXPECT_EQ(imu.angular_velocity_y.stddev, 0.01);
     EXPECT_EQ(imu.linear_acceleration_z, (NoiseSpec{0.1, 0, 0.2, 0.3, 0}));
+    EXPECT_FALSE(imu.enable_orientation);
     const Loaded oriented = with_sensor(
-        "<sensor name='s' type='imu'><imu><enable_orientation>1</enable_orientation>"
-        "<orientation_reference_frame><localization>ENU</localization></orientation_reference_frame></imu>"
-        "</sensor>");
-    EXPECT_EQ(oriented.diagnostics.items().size(), 2u) << oriented.text();
-    EXPECT_NE(oriented.find("ignored-element"), nullptr);
+        "<sensor name='s' type='imu'><imu><orientation_reference_frame><localization>GRAV_UP</localization>"
+        "<custom_rpy parent_frame='world'>0.1 0.2 0.3</custom_rpy><grav_dir_x parent_frame='a'>0 1 "
+        "0</grav_dir_x>"
+        "</orientation_reference_frame></imu></sensor>");
+    EXPECT_TRUE(oriented.diagnostics.items().empty()) << oriented.text();
+    const auto frame = first_as<ImuSpec>(oriented);
+    EXPECT_EQ(frame.localization, "GRAV_UP");
+    EXPECT_EQ(frame.custom_rpy, (Vec3{0.1, 0.2, 0.3}));
+    EXPECT_EQ(frame.custom_rpy_frame, "world");
+    EXPECT_EQ(frame.gravity_x, (Vec3{0, 1, 0}));
+    EXPECT_EQ(frame.gravity_x_frame, "a");
     EXPECT_TRUE(with_sensor("<sensor name='s' type='imu'/>").diagnostics.items().empty());
 }
 
@@ -136,14 +143,111 @@ TEST(Sensors, AnOdometerOfAJointThatIsNotThereIsAnError) {
 
 TEST(Sensors, OthersAreKeptAndReportedOnceAKind) {
     const Loaded loaded = with_sensor(
-        "<sensor name='c1' type='multicamera'><camera><image><width>oops</width></image></camera></sensor>"
-        "<sensor name='c2' type='multicamera'/><sensor name='i' type='wireless_receiver'/>"
+        "<sensor name='c1' type='rfid'/><sensor name='c2' type='rfid'/>"
+        "<sensor name='i' type='wireless_receiver'/>"
         "<sensor name='n' type='wireless_transmitter'/>");
     ASSERT_TRUE(loaded.world);
     EXPECT_FALSE(loaded.diagnostics.has_errors()) << loaded.text();
     EXPECT_EQ(loaded.diagnostics.items().size(), 3u) << loaded.text();
     EXPECT_FALSE(first(loaded).measures());
-    EXPECT_EQ(first(loaded).sdf_type, "multicamera");
+    EXPECT_EQ(first(loaded).sdf_type, "rfid");
+}
+
+TEST(Sensors, TheCamerasOfAMulticameraAreSensorsOfTheirOwn) {
+    const Loaded loaded = with_sensor(
+        "<sensor name='stereo' type='multicamera'><pose>0 0 1 0 0 0</pose><update_rate>15</update_rate>"
+        "<camera name='left'><pose>0 0.1 0 0 0 0</pose><image><width>32</width><height>24</height></image>"
+        "<noise><type>gaussian</type><stddev>0.1</stddev></noise></camera>"
+        "<camera name='right'><pose>0 -0.1 0 0 0 0</pose><horizontal_fov>1.5</horizontal_fov>"
+        "<visibility_mask>6</visibility_mask></camera></sensor>");
+    ASSERT_TRUE(loaded.world) << loaded.text();
+    EXPECT_TRUE(loaded.diagnostics.items().empty()) << loaded.text();
+    const std::vector<SensorSpec>& sensors = loaded.world->prototypes.at(0).links.at(0).sensors;
+    ASSERT_EQ(sensors.size(), 2u);
+    EXPECT_EQ(sensors[0].name, "stereo/left");
+    EXPECT_EQ(sensors[1].name, "stereo/right");
+    EXPECT_EQ(sensors[1].X_LS.p.z, 1);
+    EXPECT_EQ(sensors[1].update_rate_hz, 15);
+    ASSERT_NE(sensors[0].as<ColorCameraSpec>(), nullptr);
+    EXPECT_EQ(sensors[0].as<ColorCameraSpec>()->optics.width, 32);
+    EXPECT_EQ(sensors[0].as<ColorCameraSpec>()->optics.X_SC.p.y, 0.1);
+    EXPECT_EQ(sensors[0].as<ColorCameraSpec>()->noise.stddev, 0.1);
+    EXPECT_EQ(sensors[1].as<ColorCameraSpec>()->optics.horizontal_fov, 1.5);
+    EXPECT_EQ(sensors[1].as<ColorCameraSpec>()->optics.visibility_mask, 6);
+    const Loaded empty = with_sensor("<sensor name='none' type='multicamera'/>");
+    EXPECT_NE(empty.find("sensor"), nullptr);
+    EXPECT_FALSE(first(empty).measures());
+}
+
+TEST(Sensors, AForceTorqueSensorInALinkMeasuresTheJointThatHoldsIt) {
+    const std::string sensor = "<sensor name='ft' type='force_torque'/>";
+    const Loaded held =
+        load_elements("<model name='m'>" + link("a") + link("b", sensor) +
+                      "<joint name='j' type='revolute'><parent>a</parent><child>b</child><axis><xyz>0 1 "
+                      "0</xyz></axis></joint>"
+                      "</model>");
+    ASSERT_TRUE(held.world) << held.text();
+    EXPECT_TRUE(held.diagnostics.items().empty()) << held.text();
+    ASSERT_NE(held.world->prototypes.at(0).links.at(1).sensors.at(0).as<ForceTorqueSpec>(), nullptr);
+    EXPECT_EQ(held.world->prototypes.at(0).links.at(1).sensors.at(0).as<ForceTorqueSpec>()->joint, "j");
+    const Loaded loose = with_sensor(sensor);
+    EXPECT_NE(loose.find("joint-sensor"), nullptr) << loose.text();
+    EXPECT_FALSE(loose.diagnostics.has_errors()) << loose.text();
+    EXPECT_FALSE(first(loose).measures());
+}
+
+TEST(Sensors, OurJointEffortAndInfraredSensorsAreRead) {
+    const auto effort = first_as<JointEffortSpec>(
+        with_sensor("<roboss:sensor name='e' type='joint_effort'><joint>j</joint><noise "
+                    "type='gaussian'><stddev>0.5</stddev>"
+                    "</noise></roboss:sensor>"));
+    EXPECT_EQ(effort.joints, JointNames{"j"});
+    EXPECT_EQ(effort.noise.stddev, 0.5);
+    const auto infrared = first_as<InfraredSpec>(with_sensor(
+        "<roboss:sensor name='ir' type='infrared'><max>0.1</max><opening_angle>0.3</opening_angle>"
+        "<response>khepera</response></roboss:sensor>"));
+    EXPECT_EQ(infrared.range_max, 0.1);
+    EXPECT_EQ(infrared.opening_angle, 0.3);
+    EXPECT_EQ(infrared.response, "khepera");
+}
+
+TEST(Sensors, ALaserMayHaveBeamsAtAnglesOfItsOwn) {
+    const std::string before =
+        "<sensor name='s' type='lidar'><lidar><scan><horizontal><samples>4</samples>"
+        "<min_angle>-1</min_angle><max_angle>1</max_angle></horizontal><vertical>";
+    const std::string after = "</vertical></scan><range><min>0.1</min><max>9</max></range></lidar></sensor>";
+    const Loaded loaded = with_sensor(before + "<roboss:angles>-0.43 -0.1 0 0.02</roboss:angles>" + after);
+    EXPECT_TRUE(loaded.diagnostics.items().empty()) << loaded.text();
+    const auto laser = first_as<LaserSpec>(loaded);
+    EXPECT_EQ(laser.vertical_angles, (std::vector<double>{-0.43, -0.1, 0, 0.02}));
+    EXPECT_EQ(laser.rows(), 4);
+    EXPECT_EQ(laser.columns(), 4);
+    EXPECT_NE(with_sensor(before + "<roboss:angles>0 -1</roboss:angles>" + after).find("bad-sensor"),
+              nullptr);
+    EXPECT_NE(with_sensor(before + "<roboss:angles>0 up</roboss:angles>" + after).find("bad-value"), nullptr);
+}
+
+TEST(Sensors, ShapesHaveTheIntensityThatTheFileGivesThemOrTheirVisuals) {
+    const std::string box = "<geometry><box><size>1 1 1</size></box></geometry>";
+    const auto retros = [&](const std::string& parts) {
+        const Loaded loaded = with_sensor(parts);
+        EXPECT_TRUE(loaded.diagnostics.items().empty()) << loaded.text();
+        std::vector<double> all;
+        for (const CollisionSpec& c : loaded.world->prototypes.at(0).links.at(0).collisions)
+            if (c.name == "one" || c.name == "two") all.push_back(c.laser_retro);
+        return all;
+    };
+    const auto collision = [&](const std::string& name, const std::string& retro) {
+        return "<collision name='" + name + "'>" + box + retro + "</collision>";
+    };
+    const std::string visual = "<visual name='two'>" + box + "<laser_retro>7</laser_retro></visual>";
+    const std::string other = "<visual name='other'>" + box + "<laser_retro>5</laser_retro></visual>";
+    EXPECT_EQ(retros(collision("one", "<laser_retro>2</laser_retro>") + collision("two", "")),
+              (std::vector<double>{2, 0}));
+    EXPECT_EQ(
+        retros(collision("one", "<laser_retro>2</laser_retro>") + collision("two", "") + other + visual),
+        (std::vector<double>{2, 7}));
+    EXPECT_EQ(retros(collision("one", "") + collision("two", "") + other), (std::vector<double>{5, 5}));
 }
 
 TEST(Sensors, ALogicalCameraHasItsFrustumAndTheSceneryOfTheWorld) {

@@ -158,6 +158,7 @@ std::optional<CollisionSpec> convert_collision(const Element& collision, const P
     give_size(spec, import);
     spec.surface = convert_surface(collision, import);
     spec.moves = takes_part_in_motion(collision);
+    spec.laser_retro = import.reader.number(collision, "laser_retro", 0);
     return spec;
 }
 

@@ -7,6 +7,13 @@
 namespace roboss::sdf_import {
 namespace {
 
+/// <visibility_flags>, a whole number of 32 bits.
+std::uint32_t flags_of(const Element& visual, const Import& import) {
+    constexpr double kAll = 4294967295;
+    const double flags = import.reader.number(visual, "visibility_flags", kAll);
+    return static_cast<std::uint32_t>(std::clamp(flags, 0.0, kAll));
+}
+
 std::optional<Vec3> colour_in(const Element& material, const char* child) {
     const auto words = words_of(material.node.child(child).text().get());
     if (words.size() < 3) return std::nullopt;
@@ -135,6 +142,7 @@ std::vector<VisualSpec> convert_visual(const Element& visual, const Pose& X_LV, 
     read_colour(material, spec);
     read_glow(material, spec);
     spec.cast_shadows = import.reader.boolean(visual, "cast_shadows", true);
+    spec.visibility_flags = flags_of(visual, import);
     read_marks(visual, import, spec);
     spec.alpha *= 1.0 - import.reader.number(visual, "transparency", 0.0);
     if (spec.geometry.kind != GeometryKind::kMesh) return {spec};

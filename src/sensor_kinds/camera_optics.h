@@ -45,6 +45,8 @@ struct CameraOptics {
         f = 1;                        ///< of a custom lens; without scale_to_hfov of any
     std::string fun = "tan";          ///< of a custom lens: tan, sin or id
     double cutoff_angle = 0.5 * kPi;  ///< rad from the axis; beyond it all is black
+    /// A whole number of 32 bits: a visual is seen if this has a bit in common with its `<visibility_flags>`.
+    double visibility_mask = 4294967295;
 
     /// Whether all lines stay straight.
     bool is_pinhole() const { return lens == "gnomonical"; }
@@ -54,7 +56,6 @@ struct CameraOptics {
     /// Elements of all cameras that have no effect.
     static constexpr IgnoredElement kIgnored[] = {
         {"save", "", "images are saved by `roboss sense` or a program"},
-        {"visibility_mask", "4294967295", "all visuals are seen"},
         {"triggered", "false|0", "a camera renders on request"},
         {"distortion/center", "0.5 0.5", "the centre of distortion is the principal point"},
     };
@@ -101,6 +102,7 @@ struct CameraOptics {
         visit({"f", "lens/custom_function/f"}, s.f);
         visit({"fun", "lens/custom_function/fun"}, s.fun);
         visit({"cutoff_angle", "lens/cutoff_angle"}, s.cutoff_angle);
+        visit({.name = "visibility_mask", .element = "visibility_mask", .later = true}, s.visibility_mask);
     }
     /// Compares all members.
     friend bool operator==(const CameraOptics&, const CameraOptics&) = default;
@@ -112,6 +114,9 @@ struct CameraOptics {
             problems.push_back(
                 {"has an image of " + std::to_string(width) + " x " + std::to_string(height) + " pixels",
                  "Write <width> and <height> from 1 to " + std::to_string(kSideMax) + "."});
+        if (!(visibility_mask >= 0 && visibility_mask <= 4294967295))
+            problems.push_back({"has a <visibility_mask> of " + std::to_string(visibility_mask),
+                                "Write a whole number from 0 to 4294967295."});
         if (!(near > 0 && far > near))
             problems.push_back(
                 {"sees from " + std::to_string(near) + " to " + std::to_string(far) + " m: it sees nothing",

@@ -17,6 +17,12 @@ struct NoiseSpec {
     double bias_mean = 0,  ///< of a bias that is drawn once per run
         bias_stddev = 0;   ///< of a bias that is drawn once per run
     double precision = 0;  ///< gaussian_quantized: readings are multiples of it; 0: any
+    /// Of a second bias, which is 0 at the start and wanders from tick to tick: db = -b / T dt + sigma dW,
+    /// with T the correlation time, sigma this number and W a Wiener process. Unit of the value / sqrt(s).
+    double dynamic_bias_stddev = 0;
+    double dynamic_bias_correlation_time = 0;  ///< s; 0: no such bias
+    /// Whether it has a bias that wanders.
+    bool drifts() const { return dynamic_bias_stddev != 0 && dynamic_bias_correlation_time != 0; }
     /// Compares all members.
     friend bool operator==(const NoiseSpec&, const NoiseSpec&) = default;
 };
@@ -61,6 +67,9 @@ struct SensorKind {
     bool needs_all_states = false;  ///< a reading depends on the states of other robots
     bool is_image = false;          ///< readings are images: large, measured when asked, never held
     bool is_never_held = false;     ///< measured when asked, never held, for another reason
+    /// Of what several sensors share, a reading uses SensorSources::ray_scene() alone: threads may measure
+    /// several at once.
+    bool by_rays = false;
     std::span<const IgnoredElement> ignored{};  ///< elements that have no effect
     PublishingPlugin plugin{};                  ///< of Gazebo, that measures this
 

@@ -17,9 +17,14 @@ struct ProblemFinder {
     }
     void operator()(const Parameter& parameter, const NoiseSpec& noise) const {
         for (const double value :
-             {noise.mean, noise.stddev, noise.bias_mean, noise.bias_stddev, noise.precision})
+             {noise.mean, noise.stddev, noise.bias_mean, noise.bias_stddev, noise.precision,
+              noise.dynamic_bias_stddev, noise.dynamic_bias_correlation_time})
             if (!std::isfinite(value)) return (*this)(parameter, value);
-        if (noise.stddev < 0 || noise.bias_stddev < 0)
+        if (noise.dynamic_bias_correlation_time < 0)
+            problems.push_back(
+                {"has a bias with a negative correlation time (" + std::string(parameter.element) + ")",
+                 "Write <dynamic_bias_correlation_time> in s."});
+        if (noise.stddev < 0 || noise.bias_stddev < 0 || noise.dynamic_bias_stddev < 0)
             problems.push_back(
                 {"has noise with a negative standard deviation (" + std::string(parameter.element) + ")",
                  "Write standard deviations of at least 0."});

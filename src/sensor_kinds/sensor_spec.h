@@ -22,6 +22,8 @@
 #include "sensor_kinds/force_torque.h"
 #include "sensor_kinds/gps.h"
 #include "sensor_kinds/imu.h"
+#include "sensor_kinds/infrared.h"
+#include "sensor_kinds/joint_effort.h"
 #include "sensor_kinds/joint_states.h"
 #include "sensor_kinds/kind.h"
 #include "sensor_kinds/label_cameras.h"
@@ -67,7 +69,8 @@ using SensorKinds =
                    WheelOdometrySpec, BatterySensorSpec, KineticEnergySpec, TrajectoryProgressSpec,
                    LogicalCameraSpec, MicrophoneSpec, AirPressureSpec, AirSpeedSpec, EnvironmentalSpec,
                    TrackOdometrySpec, SonarSpec, ColorCameraSpec, DepthCameraSpec, RgbdCameraSpec,
-                   SegmentationCameraSpec, BoxCameraSpec, ThermalCameraSpec, RadioSpec>;
+                   SegmentationCameraSpec, BoxCameraSpec, ThermalCameraSpec, RadioSpec, JointEffortSpec,
+                   InfraredSpec>;
 
 /// Parameters of any kind.
 using SensorParameters = SensorKinds::Parameters;

@@ -40,7 +40,8 @@ struct SonarSpec {
                                       .sdf_types = "sonar",
                                       .block = "sonar",
                                       .block_required = true,
-                                      .needs_all_states = true};
+                                      .needs_all_states = true,
+                                      .by_rays = true};
 
     /// Calls visit(Parameter, value) for each parameter, always in the same order.
     template <class Visitor, class Self>

@@ -3,6 +3,7 @@
 // every tick.
 #include "physics/dynamics/kinematics.h"
 #include "physics/probe.h"
+#include "sensors/imu_frame.h"
 #include "sensors/readings.h"
 #include "sensors/sensor_noise.h"
 
@@ -47,6 +48,11 @@ Result<ImuReading> read(const ImuSpec& imu, const SensorQuery& query) {
     reading.specific_force_S = {noisy_value(force.x, imu.linear_acceleration_x, query, 3, 3),
                                 noisy_value(force.y, imu.linear_acceleration_y, query, 4, 4),
                                 noisy_value(force.z, imu.linear_acceleration_z, query, 5, 5)};
+    reading.orientation = {0, 0, 0, 0};
+    if (!imu.enable_orientation) return reading;
+    const Result<Mat3> reference = reference_frame_of(imu, query);
+    if (!reference) return reference.error();
+    reading.orientation = conjugate(to_quat(reference.value())) * before.q_WS;
     return reading;
 }
 

@@ -94,6 +94,32 @@ TEST(Imu, OnATurntableItReadsTheCentripetalAcceleration) {
     EXPECT_NEAR(norm(reading.angular_velocity_S - Vec3{0, 0, rate}), 0, 1e-9);
 }
 
+/// A sled that motors drive outwards on a turning arm: centripetal and Coriolis acceleration.
+TEST(Imu, OnASledOnATurntableItReadsTheCoriolisAcceleration) {
+    const double rate = 3, speed = 0.8;
+    ModelSpec table;
+    table.name = "table";
+    LinkSpec disc = test::link("disc", 30, test::cylinder_inertia(30, 1, 0.1));
+    LinkSpec sled = test::link("sled", 1, test::cylinder_inertia(1, 0.1, 0.1));
+    sled.X_ML.p = {0.2, 0, 0};
+    sled.sensors = {imu()};
+    table.links = {disc, sled};
+    table.joints = {
+        test::joint(JointSpecKind::kContinuous, "axis", "world", "disc", {}, {0, 0, 1}),
+        test::joint(JointSpecKind::kPrismatic, "slide", "disc", "sled", {{0.2, 0, 0}, {}}, {1, 0, 0})};
+    World world = test::empty_world(1e-3, {0, 0, -kG});
+    test::place(world, table, "table");
+    test::Simulation sim(world);
+    sim.states[0].v = {rate, speed};
+    sim.set_motor(0, 0, MotorMode::kVelocity, rate);
+    sim.set_motor(0, 1, MotorMode::kVelocity, speed);
+    sim.run(0.5);
+    const ImuReading reading = reading_of(sim);
+    const double radius = 0.2 + speed * (0.5 + 0.5e-3);  // at the middle of the tick that begins now
+    EXPECT_NEAR(norm(reading.specific_force_S - Vec3{-rate * rate * radius, 2 * rate * speed, kG}), 0, 1e-3);
+    EXPECT_NEAR(norm(reading.angular_velocity_S - Vec3{0, 0, rate}), 0, 1e-6);
+}
+
 /// At the bob the string is all that acts: along it g cos(a) + l w^2, across it nothing. The rod of this
 /// pendulum is a point mass in effect: a sensor at the centre of oscillation, 2/3 of a thin rod, feels
 /// nothing across either.

@@ -1,4 +1,6 @@
 // Finds the sensor that a query names, and the function of its kind.
+#include <algorithm>
+
 #include "core/float_env.h"
 #include "sensors/readings.h"
 
@@ -29,6 +31,21 @@ Result<Sample> measure(const SensorQuery& query) {
             }
         },
         spec.parameters);
+}
+
+std::vector<Result<Sample>> measure_all(std::span<const SensorQuery> queries) {
+    std::vector<Result<Sample>> samples(queries.size(), Result<Sample>(Sample{}));
+    const auto measure_one = [&](std::size_t i) { samples[i] = measure(queries[i]); };
+    const bool by_rays = std::ranges::all_of(queries, [](const SensorQuery& query) {
+        return query.robot.index() < query.model.robots.size() &&
+               query.sensor < query.type().sensors.size() && query.info().spec.kind().by_rays;
+    });
+    RayScene* const scene = by_rays && !queries.empty() ? &queries.front().sources.ray_scene() : nullptr;
+    if (scene != nullptr)
+        scene->share_out(queries.size(), measure_one);
+    else
+        for (std::size_t i = 0; i < queries.size(); ++i) measure_one(i);
+    return samples;
 }
 
 }  // namespace roboss

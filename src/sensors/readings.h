@@ -2,8 +2,10 @@
 // reading means, its units and its noise stand with its kind, in src/sensor_kinds.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <span>
+#include <vector>
 
 #include "core/result.h"
 #include "sensor_kinds/sensor_spec.h"
@@ -11,7 +13,7 @@
 
 namespace roboss {
 
-/// Rays against the static scenery and every robot (Embree, pinned to one instruction set, robust mode).
+/// Rays against the static scenery and every robot: trees of boxes cull, shapes are measured in doubles.
 class RayScene {
   public:
     /// Contains the static scenery; robots appear with the first update().
@@ -31,11 +33,31 @@ class RayScene {
         LinkId ignore_self_link;  ///< that link's own shapes are not seen
     };
     /// Distance of the nearest hit of each ray, in m, or +infinity. Both spans have the same size.
-    void cast(std::span<const Ray> rays, std::span<double> distances);
+    void cast(std::span<const Ray> rays, std::span<double> distances) const;
+    /// Where rays of one sensor begin, and what they see.
+    struct Fan {
+        Transform X_WS;           ///< the sensor in the world
+        double max_range = 0;     ///< m; hits beyond it do not count
+        RobotId self;             ///< robot that carries the sensor; none: everything is seen
+        LinkId ignore_self_link;  ///< that link's own shapes are not seen
+    };
+    /// The same for rays from the sensor's origin along unit vectors in its frame. `retros`: of each ray the
+    /// laser_retro of what it meets, 0 where it meets nothing; or empty. Several threads may call it at once
+    /// in share_out(), else one.
+    void cast(const Fan& fan, std::span<const Vec3> directions_S, std::span<double> distances,
+              std::span<double> retros) const;
+    /// Whether a shape of the world has a laser_retro.
+    bool has_retro() const;
+    /// Threads that large casts and share_out() use, the calling one included; 1 at first. No bit depends on
+    /// it.
+    void set_threads(unsigned threads);
+    /// Calls work(i) for each i below count, on all threads; work may cast.
+    void share_out(std::size_t count, const std::function<void(std::size_t)>& work);
     /// What a ray meets first.
     struct Sight {
         double distance = 0;  ///< m, or +infinity
         RobotId robot;        ///< not valid: scenery, or nothing
+        double retro = 0;     ///< laser_retro of the shape
     };
     /// The same, and whose shapes they are. Several threads may call it at once, between two update().
     void look(std::span<const Ray> rays, std::span<Sight> sights) const;
@@ -62,6 +84,10 @@ Result<Reading> measure_as(const SensorQuery& query) {
     return Error{"sensor '" + query.info().spec.name + "' is read as " + kind_of_reading<Reading>().phrase,
                  std::string("it is ") + query.info().spec.kind().phrase};
 }
+
+/// The readings of sensors of one kind at one tick, all with the same sources, in the order of the queries;
+/// on all threads of their ray scene where the kind allows it (SensorKind::by_rays).
+std::vector<Result<Sample>> measure_all(std::span<const SensorQuery> queries);
 
 // One for each kind, in a file of its own; called by measure(). The query is one that measure() has checked.
 Result<LaserReading> read(const LaserSpec& laser, const SensorQuery& query);
@@ -93,6 +119,8 @@ Result<RgbdCameraReading> read(const RgbdCameraSpec& camera, const SensorQuery& 
 Result<SegmentationCameraReading> read(const SegmentationCameraSpec& camera, const SensorQuery& query);
 Result<BoxCameraReading> read(const BoxCameraSpec& camera, const SensorQuery& query);
 Result<ThermalCameraReading> read(const ThermalCameraSpec& camera, const SensorQuery& query);
+Result<JointEffortReading> read(const JointEffortSpec& sensor, const SensorQuery& query);
+Result<InfraredReading> read(const InfraredSpec& sensor, const SensorQuery& query);
 Result<RadioReading> read(const RadioSpec& radio, const SensorQuery& query);
 
 /// The messages that a radio received after query.since up to query.tick, by time of arrival. An Error as of

@@ -113,6 +113,64 @@ TEST(Laser, RangesAreMultiplesOfTheResolution) {
     EXPECT_EQ(cart.laser(0, 1).ranges[1], 5.75);  // of 5.657
 }
 
+TEST(Laser, BeamsMayHaveAnglesOfTheirOwn) {
+    Mounted<LaserSpec> spec = laser_spec();
+    spec.angles = {-0.5, 0, 0.1, 0.7}, spec.vertical_angles = {-0.3, 0.2};
+    OneSensor cart(spec);
+    add_wall(*cart.model);
+    const LaserReading reading = cart.laser(0, 1);
+    EXPECT_EQ(reading.samples, 4);
+    EXPECT_EQ(reading.vertical_samples, 2);
+    ASSERT_EQ(reading.ranges.size(), 8u);
+    std::size_t i = 0;
+    for (const double e : spec.vertical_angles)
+        for (const double a : spec.angles)
+            EXPECT_NEAR(reading.ranges[i++], 4 / (std::cos(e) * std::cos(a)), 1e-12);
+}
+
+TEST(Laser, IntensitiesAreThoseOfWhatTheBeamsMeet) {
+    OneSensor cart(laser_spec());
+    add_wall(*cart.model);
+    EXPECT_TRUE(cart.laser(0, 1).intensities.empty()) << "nothing in the world has one";
+    cart.model->statics.back().laser_retro = 30;
+    add_static(*cart.model, {ShapeKind::kSphere, {}, 1, 0}, {Mat3::identity(), {0, 8, 1}});
+    EXPECT_EQ(cart.laser(0, 1).intensities, (std::vector<double>{0, 30, 30, 30, 0}));
+    cart.model->statics.back().laser_retro = 7;
+    const LaserReading reading = cart.laser(0, 1);
+    EXPECT_EQ(reading.intensities, (std::vector<double>{0, 30, 30, 30, 7}));
+    cart.model->types[0].shapes[0].laser_retro = 2;  // of another cart, before the wall
+    cart.parked = cart_at({{2, 0, 1}, {}});
+    EXPECT_EQ(cart.laser(0, 1).intensities, (std::vector<double>{0, 30, 2, 30, 7}));
+}
+
+TEST(Laser, ScansOfSeveralRobotsOnAllThreadsAreThoseOfOne) {
+    Mounted<LaserSpec> spec = laser_spec();
+    spec.samples = 900, spec.vertical_samples = 8, spec.vertical_min_angle = -0.5,
+    spec.vertical_max_angle = 0.5;
+    spec.noise.stddev = 0.1;
+    OneSensor cart(spec);
+    add_wall(*cart.model);
+    cart.parked = cart_at({{2, 3, 1}, from_rpy(0, 0, 1)});
+    const std::vector<const RobotState*> states{&cart.state, &cart.parked, &cart.parked};
+    const auto scans = [&](unsigned threads, std::size_t robots) {
+        KnownStates sources(cart.model, states);
+        sources.ray_scene().set_threads(threads);
+        std::vector<SensorQuery> queries;
+        for (std::size_t r = 0; r < robots; ++r)
+            queries.push_back({*cart.model, RobotId(r), 0, *states[r], 5, 1, sources});
+        std::vector<std::vector<double>> ranges;
+        for (const Result<Sample>& sample : measure_all(queries))
+            ranges.push_back(std::get<LaserReading>(sample.value()).ranges);
+        return ranges;
+    };
+    const auto alone = scans(1, 3);
+    ASSERT_EQ(alone.size(), 3u);
+    EXPECT_EQ(alone[0], cart.laser(5, 1).ranges);
+    EXPECT_NE(alone[1], alone[2]) << "each robot has noise of its own";
+    EXPECT_EQ(scans(3, 3), alone);
+    EXPECT_EQ(scans(4, 1).at(0), alone[0]) << "a single scan in pieces";
+}
+
 TEST(Laser, NoiseHasTheMeanAndDeviationOfTheFile) {
     Mounted<LaserSpec> spec = laser_spec();
     spec.samples = 501, spec.min_angle = -0.2, spec.max_angle = 0.2;

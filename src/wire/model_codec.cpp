@@ -13,7 +13,7 @@ namespace roboss {
 namespace wire {
 namespace {
 
-constexpr std::uint32_t kModelVersion = 8;
+constexpr std::uint32_t kModelVersion = 9;
 
 /// A Writer and a Reader that know the shared hulls and surfaces, to which shapes point.
 struct ModelWriter : Writer {
@@ -128,14 +128,14 @@ template <class A> void field(A& a, Of<A, Shape>& m) {
 template <class A> void field(A& a, Of<A, SurfaceFlow>& m) { fields(a, m.linear, m.angular, m.belt, m.at); }
 template <class A> void field(A& a, Of<A, Aabb>& m) { fields(a, m.min, m.max); }
 template <class A> void field(A& a, Of<A, BodyShape>& m) {
-    fields(a, m.shape, m.body, m.link, m.X_BS, m.material, m.direction_body, m.moves);
+    fields(a, m.shape, m.body, m.link, m.X_BS, m.material, m.direction_body, m.moves, m.laser_retro);
 }
 template <class A> void field(A& a, Of<A, LinkDrag>& m) { fields(a, m.link, m.area, m.linear, m.wind, m.carried); }
 template <class A> void field(A& a, Of<A, LinkFluid>& m) { fields(a, m.link, m.buoyant, m.added_mass); }
 template <class A> void field(A& a, Of<A, FluidLayers>& m) { fields(a, m.heights, m.densities, m.everywhere); }
 template <class A> void field(A& a, Of<A, WindRegion>& m) { fields(a, m.lower, m.upper, m.cubic, m.square, m.linear, m.constant); }
 template <class A> void field(A& a, Of<A, NoiseSpec>& m) {
-    fields(a, m.mean, m.stddev, m.bias_mean, m.bias_stddev, m.precision);
+    fields(a, m.mean, m.stddev, m.bias_mean, m.bias_stddev, m.precision, m.dynamic_bias_stddev, m.dynamic_bias_correlation_time);
 }
 template <class A> void field(A& a, Of<A, JointNames>& m) { field(a, static_cast<Of<A, std::vector<std::string>>&>(m)); }
 template <class A> void field(A& a, Of<A, SensorInfo>& m) {
@@ -156,7 +156,7 @@ template <class A> void field(A& a, Of<A, RobotType>& m) {
 }
 template <class A> void field(A& a, Of<A, Robot>& m) { fields(a, m.name, m.type, m.X_WR, m.family, m.start_q, m.start_v); }
 template <class A> void field(A& a, Of<A, StaticShape>& m) {
-    fields(a, m.shape, m.X_WS, m.material, m.name, m.robot, m.link, m.flow, m.driven);
+    fields(a, m.shape, m.X_WS, m.material, m.name, m.robot, m.link, m.flow, m.driven, m.laser_retro);
 }
 template <class A> void field(A& a, Of<A, Accuracy>& m) {
     fields(a, m.tolerance, m.friction_tolerance, m.newton_max, m.friction_max, m.compliance, m.impact_compliance, m.contact_compliance, m.friction_compliance);
@@ -182,18 +182,18 @@ template <class A> void field(A& a, Of<A, Model>& m) {
 [[maybe_unused]] void know_fields(const CoordinateCoupling& m) { [[maybe_unused]] const auto& [f0, f1, f2, f3, f4, f5] = m; }
 [[maybe_unused]] void know_fields(const Material& m) { [[maybe_unused]] const auto& [f0, f1, f2, f3, f4, f5, f6, f7, f8, f9, f10, f11, f12, f13, f14, f15] = m; }
 [[maybe_unused]] void know_fields(const Shape& m) { [[maybe_unused]] const auto& [f0, f1, f2, f3, f4, f5] = m; }
-[[maybe_unused]] void know_fields(const BodyShape& m) { [[maybe_unused]] const auto& [f0, f1, f2, f3, f4, f5, f6] = m; }
+[[maybe_unused]] void know_fields(const BodyShape& m) { [[maybe_unused]] const auto& [f0, f1, f2, f3, f4, f5, f6, f7] = m; }
 [[maybe_unused]] void know_fields(const SurfaceFlow& m) { [[maybe_unused]] const auto& [f0, f1, f2, f3] = m; }
 [[maybe_unused]] void know_fields(const LinkDrag& m) { [[maybe_unused]] const auto& [f0, f1, f2, f3, f4] = m; }
 [[maybe_unused]] void know_fields(const LinkFluid& m) { [[maybe_unused]] const auto& [f0, f1, f2] = m; }
 [[maybe_unused]] void know_fields(const WindRegion& m) { [[maybe_unused]] const auto& [f0, f1, f2, f3, f4, f5] = m; }
 [[maybe_unused]] void know_fields(const FluidLayers& m) { [[maybe_unused]] const auto& [f0, f1, f2] = m; }
 [[maybe_unused]] void know_fields(const SensorSpec& m) { [[maybe_unused]] const auto& [f0, f1, f2, f3, f4, f5, topic_stays] = m; }
-[[maybe_unused]] void know_fields(const NoiseSpec& m) { [[maybe_unused]] const auto& [f0, f1, f2, f3, f4] = m; }
+[[maybe_unused]] void know_fields(const NoiseSpec& m) { [[maybe_unused]] const auto& [f0, f1, f2, f3, f4, f5, f6] = m; }
 [[maybe_unused]] void know_fields(const SensorInfo& m) { [[maybe_unused]] const auto& [f0, f1] = m; }
 [[maybe_unused]] void know_fields(const RobotType& m) { [[maybe_unused]] const auto& [f0, f1, f2, f3, f4, f5, f6, f7, f8, f9, f10, f11, f12, f13, f14, f15, f16, f17, f18, f19, f20, f21, f22, f23, f24, f25, f26, f27, f28, f29, f30, f31, f32, f33, elimination, radios_of_sensors] = m; }
 [[maybe_unused]] void know_fields(const Robot& m) { [[maybe_unused]] const auto& [f0, f1, f2, f3, f4, f5] = m; }
-[[maybe_unused]] void know_fields(const StaticShape& m) { [[maybe_unused]] const auto& [f0, f1, f2, f3, f4, f5, f6, f7] = m; }
+[[maybe_unused]] void know_fields(const StaticShape& m) { [[maybe_unused]] const auto& [f0, f1, f2, f3, f4, f5, f6, f7, f8] = m; }
 [[maybe_unused]] void know_fields(const Accuracy& m) { [[maybe_unused]] const auto& [f0, f1, f2, f3, f4, f5, f6, f7] = m; }
 [[maybe_unused]] void know_fields(const Model& m) { [[maybe_unused]] const auto& [f0, f1, f2, f3, f4, f5, f6, f7, f8, f9, f10, f11, f12, f13, f14, f15, f16, f17, f18] = m; }
 // clang-format on

@@ -22,7 +22,8 @@ std::string other_than(const std::string& word) {
         {"child", "parent"},      {"child_to_parent", "parent_to_child"},
         {"cone", "sphere"},       {"gnomonical", "custom"},
         {"tan", "sin"},           {"R8G8B8", "L8"},
-        {"semantic", "panoptic"}, {"visible_2d", "3d"}};
+        {"semantic", "panoptic"}, {"visible_2d", "3d"},
+        {"CUSTOM", "ENU"},        {"distance", "khepera"}};
     const auto other = kOthers.find(word);
     return other == kOthers.end() ? "slide" : other->second;
 }
@@ -35,7 +36,8 @@ std::vector<SensorSpec> sensors_of_all_kinds() {
         visit_parameters(parameters, [&]<class Value>(const Parameter&, Value& value) {
             if constexpr (std::is_same_v<Value, NoiseSpec>)
                 value.mean = ++next, value.stddev = ++next, value.bias_mean = ++next,
-                value.bias_stddev = ++next, value.precision = ++next;
+                value.bias_stddev = ++next, value.precision = ++next, value.dynamic_bias_stddev = ++next,
+                value.dynamic_bias_correlation_time = ++next;
             else if constexpr (std::is_same_v<Value, JointNames>)
                 value = {"slide", "wrist"};
             else if constexpr (std::is_same_v<Value, std::vector<std::string>>)

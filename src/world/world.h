@@ -96,12 +96,13 @@ struct SurfaceSpec {
 
 /// A shape that touches others (SDF `<collision>`).
 struct CollisionSpec {
-    std::string name;       ///< as in the file
-    GeometrySpec geometry;  ///< shape and dimensions
-    Pose X_LS;              ///< shape in link
-    SurfaceSpec surface;    ///< friction, bounce and softness
-    bool moves = true;      ///< whether it takes part in the surface motion of its link, if that has one
-    SourceLocation where;   ///< of the element
+    std::string name;        ///< as in the file
+    GeometrySpec geometry;   ///< shape and dimensions
+    Pose X_LS;               ///< shape in link
+    SurfaceSpec surface;     ///< friction, bounce and softness
+    bool moves = true;       ///< whether it takes part in the surface motion of its link, if that has one
+    double laser_retro = 0;  ///< the intensity that lasers read, SDF `<laser_retro>`
+    SourceLocation where;    ///< of the element
 };
 
 /// File formats of pictures.
@@ -133,15 +134,17 @@ struct FinishSpec {
 /// A shape that is only drawn (SDF `<visual>`).
 /// A mesh of several materials is one visual for each.
 struct VisualSpec {
-    std::string name;                     ///< as in the file
-    GeometrySpec geometry;                ///< shape and dimensions
-    Pose X_LV;                            ///< visual in link
-    Vec3 rgb{0.7, 0.7, 0.7};              ///< colour, 0..1 each
-    double alpha = 1.0;                   ///< opacity: 0 is invisible, 1 opaque
-    FinishSpec finish{};                  ///< pictures and gloss
-    std::optional<Vec3> specular{},       ///< colour of highlights, 0..1 each; none: the viewer's own
-        emissive{};                       ///< light that it gives off, 0..1 each; none: nothing
-    bool cast_shadows = true;             ///< SDF `<cast_shadows>`
+    std::string name;                ///< as in the file
+    GeometrySpec geometry;           ///< shape and dimensions
+    Pose X_LV;                       ///< visual in link
+    Vec3 rgb{0.7, 0.7, 0.7};         ///< colour, 0..1 each
+    double alpha = 1.0;              ///< opacity: 0 is invisible, 1 opaque
+    FinishSpec finish{};             ///< pictures and gloss
+    std::optional<Vec3> specular{},  ///< colour of highlights, 0..1 each; none: the viewer's own
+        emissive{};                  ///< light that it gives off, 0..1 each; none: nothing
+    bool cast_shadows = true;        ///< SDF `<cast_shadows>`
+    std::uint32_t visibility_flags =
+        0xFFFFFFFF;                       ///< cameras see it whose `<visibility_mask>` has one of these bits
     int label = 0;                        ///< 1..255, of Gazebo's Label plugin; 0: none
     bool labels_model = false;            ///< the label is that of the model: its visuals are one thing
     std::optional<double> temperature{};  ///< K, of Gazebo's Thermal plugin; none: that of the air

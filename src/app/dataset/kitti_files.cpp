@@ -10,6 +10,7 @@
 #include "app/dataset/reading_files.h"
 #include "app/output/array_file.h"
 #include "render/lens.h"
+#include "sensors/laser_beams.h"
 
 namespace roboss {
 namespace {
@@ -38,26 +39,18 @@ int occlusion(const SeenThing& thing) {
     return thing.visible >= kWhole ? 0 : thing.visible >= kHalf ? 1 : 2;
 }
 
-/// x, y, z and reflectance of each beam that met something, 32 bits each.
+/// x, y, z and intensity of each beam that met something, 32 bits each.
 std::string velodyne(const KittiScan& scan) {
-    const LaserSpec& spec = *scan.spec;
-    const auto angle = [](double from, double to, int count, int i) {
-        return count > 1 ? from + (to - from) * i / (count - 1) : from;
-    };
+    const std::vector<Vec3> beams = laser_beams(*scan.spec);
+    const LaserReading& reading = *scan.reading;
     std::string bytes;
-    std::size_t beam = 0;
-    for (int row = 0; row < scan.reading->vertical_samples; ++row) {
-        const double up =
-            angle(spec.vertical_min_angle, spec.vertical_max_angle, scan.reading->vertical_samples, row);
-        for (int i = 0; i < scan.reading->samples; ++i, ++beam) {
-            const double range = scan.reading->ranges[beam];
-            if (!std::isfinite(range)) continue;
-            const double left = angle(spec.min_angle, spec.max_angle, scan.reading->samples, i);
-            const std::array<float, 4> point{static_cast<float>(range * std::cos(up) * std::cos(left)),
-                                             static_cast<float>(range * std::cos(up) * std::sin(left)),
-                                             static_cast<float>(range * std::sin(up)), 0.0F};
-            bytes.append(reinterpret_cast<const char*>(point.data()), sizeof point);
-        }
+    for (std::size_t i = 0; i < beams.size(); ++i) {
+        if (!std::isfinite(reading.ranges[i])) continue;
+        const Vec3 p = beams[i] * reading.ranges[i];
+        const std::array<float, 4> point{
+            static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z),
+            reading.intensities.empty() ? 0.0F : static_cast<float>(reading.intensities[i])};
+        bytes.append(reinterpret_cast<const char*>(point.data()), sizeof point);
     }
     return bytes;
 }

@@ -54,7 +54,7 @@ struct FrameWriter {
         if (!image.empty()) keep(write_image(file_of(field, ".png"), image));
     }
     void operator()(const ReadingField& field, const std::vector<double>& values) const {
-        if (!is_constant(field))
+        if (!is_constant(field) && !(values.empty() && std::strcmp(field.name, "intensities") == 0))
             keep(write_bytes(file_of(field, ".npy"), npy({static_cast<int>(values.size())}, values)));
     }
     void operator()(const ReadingField& field, const std::vector<std::string>& texts) const {

@@ -9,6 +9,7 @@
 
 #include "app/output/array_file.h"
 #include "render/lens.h"
+#include "sensors/laser_beams.h"
 
 namespace roboss {
 namespace {
@@ -85,39 +86,72 @@ struct CsvWriter {
     }
 };
 
+/// The points of a cloud, each with three coordinates and perhaps a fourth number.
+class Cloud {
+  public:
+    /// `fourth`: the name of the fourth number, "" if there is none; `type`: F or U. `frame`: "camera's".
+    Cloud(const char* frame, const char* fourth = "", const char* type = "")
+        : frame_(frame), fourth_(fourth), type_(type) {}
+
+    void add(const Vec3& p) {
+        for (std::size_t k = 0; k < 3; ++k) append(static_cast<float>(p[k]));
+        ++count_;
+    }
+    template <class Number>
+    void append(Number number) {
+        static_assert(sizeof number == 4);
+        points_.append(reinterpret_cast<const char*>(&number), sizeof number);
+    }
+    /// As PCD, version 0.7.
+    std::string file() const {
+        const bool more = *fourth_ != '\0';
+        return fmt::format(
+                   "# .PCD v0.7 - points in the {} frame, m\nVERSION 0.7\nFIELDS x y z{}{}\nSIZE 4 4 4{}\n"
+                   "TYPE F F F{}{}\nCOUNT 1 1 1{}\nWIDTH {}\nHEIGHT 1\nVIEWPOINT 0 0 0 1 0 0 0\nPOINTS "
+                   "{}\nDATA binary\n",
+                   frame_, more ? " " : "", fourth_, more ? " 4" : "", more ? " " : "", type_,
+                   more ? " 1" : "", count_, count_) +
+               points_;
+    }
+
+  private:
+    const char *frame_, *fourth_, *type_;
+    std::size_t count_ = 0;
+    std::string points_;
+};
+
+/// What the beams met, with the intensities where there are any.
+std::string pcd(const LaserReading& scan, const LaserSpec& laser) {
+    const bool intensities = !scan.intensities.empty();
+    Cloud cloud("laser's", intensities ? "intensity" : "", intensities ? "F" : "");
+    const std::vector<Vec3> beams = laser_beams(laser);
+    for (std::size_t i = 0; i < beams.size(); ++i) {
+        if (!std::isfinite(scan.ranges[i])) continue;
+        cloud.add(beams[i] * scan.ranges[i]);
+        if (intensities) cloud.append(static_cast<float>(scan.intensities[i]));
+    }
+    return cloud.file();
+}
+
 std::string pcd(const Image<float>& depth, const Image<std::uint8_t>* color, const CameraOptics& optics) {
     const render::Lens lens(optics);
-    std::string points;
-    std::size_t count = 0;
-    const auto add = [&](const void* value) { points.append(static_cast<const char*>(value), 4); };
+    const bool painted = color != nullptr;
+    Cloud cloud("camera's", painted ? "rgb" : "", painted ? "U" : "");
     for (int v = 0; v < depth.rows; ++v)
         for (int u = 0; u < depth.columns; ++u) {
             const auto pixel = static_cast<std::size_t>(v) * static_cast<std::size_t>(depth.columns) +
                                static_cast<std::size_t>(u);
             const auto direction = lens.direction(u + 0.5, v + 0.5);
             if (!direction || !std::isfinite(depth.samples[pixel])) continue;
-            const Vec3 p = *direction * (static_cast<double>(depth.samples[pixel]) / direction->x);
-            for (std::size_t k = 0; k < 3; ++k) {
-                const auto number = static_cast<float>(p[k]);
-                add(&number);
-            }
-            ++count;
+            cloud.add(*direction * (static_cast<double>(depth.samples[pixel]) / direction->x));
             if (color == nullptr) continue;
             const std::uint8_t* rgb = &color->samples[3 * pixel];
             const std::uint32_t packed =
                 static_cast<std::uint32_t>(rgb[0]) << 16 | static_cast<std::uint32_t>(rgb[1]) << 8 | rgb[2];
-            add(&packed);
+            cloud.append(packed);
         }
-    const bool painted = color != nullptr;
-    return fmt::format(
-               "# .PCD v0.7 - points in the camera's frame, m\nVERSION 0.7\nFIELDS x y z{}\nSIZE 4 4 4{}\n"
-               "TYPE F F F{}\nCOUNT 1 1 1{}\nWIDTH {}\nHEIGHT 1\nVIEWPOINT 0 0 0 1 0 0 0\nPOINTS {}\nDATA "
-               "binary\n",
-               painted ? " rgb" : "", painted ? " 4" : "", painted ? " U" : "", painted ? " 1" : "", count,
-               count) +
-           points;
+    return cloud.file();
 }
-
 }  // namespace
 
 Result<> write_reading(const std::string& file, const Sample& sample, const SensorSpec& sensor) {
@@ -136,8 +170,11 @@ Result<> write_reading(const std::string& file, const Sample& sample, const Sens
     if (file.ends_with(".pcd")) {
         if (const auto* depth = std::get_if<DepthCameraReading>(&sample))
             return write_bytes(file, pcd(depth->depth, nullptr, sensor.as<DepthCameraSpec>()->optics));
+        if (const auto* scan = std::get_if<LaserReading>(&sample))
+            return write_bytes(file, pcd(*scan, *sensor.as<LaserSpec>()));
         const auto* both = std::get_if<RgbdCameraReading>(&sample);
-        if (both == nullptr) return does_not_fit(file, sensor, "only depth images are written as points");
+        if (both == nullptr)
+            return does_not_fit(file, sensor, "only depth images and scans of lasers are written as points");
         const bool rgb = both->color.channels == 3;
         return write_bytes(
             file, pcd(both->depth, rgb ? &both->color : nullptr, sensor.as<RgbdCameraSpec>()->optics));

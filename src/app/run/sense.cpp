@@ -18,7 +18,7 @@ const char* const kSenseFooter =
     R"(Runs the world to the given time and reads one sensor there, with its noise. <update_rate> has no effect.
 
 The ending of the file says how it is written: .png (images: colours; depth in mm; labels; temperatures in 0.01 K), .npy
-(NumPy: images, ranges), .pcd (points of a depth camera), .csv (all numbers of other sensors).
+(NumPy: images, ranges), .pcd (points of a depth camera or laser), .csv (all numbers of other sensors).
 
 Examples:
   roboss sense world.sdf --robot rover --sensor eye --at 2 -o eye.png
@@ -27,7 +27,21 @@ Examples:
 
 Exit codes: those of `roboss run`; 3 also if the sensor cannot measure or the file cannot be written.)";
 
-Result<std::pair<RobotId, std::size_t>> find_sensor(const SenseOptions& o, const Model& model) {
+/// Names of sensors may contain a slash (cameras of a multicamera): if no robot has the name, what stands
+/// behind a slash in it belongs to the sensor's.
+SenseOptions parted(SenseOptions o, const Model& model) {
+    SenseOptions tried = o;
+    while (!model.find_robot(tried.robot)) {
+        const std::size_t slash = tried.robot.rfind('/');
+        if (slash == std::string::npos) return o;
+        tried.sensor = tried.robot.substr(slash + 1) + "/" + tried.sensor;
+        tried.robot.resize(slash);
+    }
+    return tried;
+}
+
+Result<std::pair<RobotId, std::size_t>> find_sensor(const SenseOptions& asked, const Model& model) {
+    const SenseOptions o = parted(asked, model);
     const std::optional<RobotId> robot = model.find_robot(o.robot);
     if (!robot) {
         std::vector<std::string> names;

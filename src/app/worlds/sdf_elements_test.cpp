@@ -175,7 +175,7 @@ const Element kElements[] = {
     {In::kGearboxAxis2, "<mimic joint='prismatic'><multiplier>2</multiplier></mimic>", "gearbox", "1.11"},
     // surfaces
     {In::kCollision, "<max_contacts>2</max_contacts>"},
-    {In::kCollision, "<laser_retro>9</laser_retro>", "laser_retro"},
+    {In::kCollision, "<laser_retro>9</laser_retro>"},
     {In::kSurface, "<friction><ode><mu>.3</mu></ode></friction>"},
     {In::kSurface, "<friction><ode><mu2>.3</mu2></ode></friction>", "<mu2>"},
     {In::kSurface, "<friction><ode><mu2>.3</mu2><fdir1>1 0 0</fdir1></ode></friction>"},
