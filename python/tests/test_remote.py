@@ -186,15 +186,17 @@ def test_cameras_see_over_the_network_what_they_see_in_one_process(name, tmp_pat
             sim.step(10)
         here, there = (sim.robots("rover_*")["camera"].read() for sim in (local, remote))
         np.testing.assert_array_equal(there, here)
-        assert len(np.unique(here)) > 20
+        assert len(np.unique(here)) > 10, "not a blank image"
         for kind in ("depth_camera", "segmentation_camera", "thermal_camera"):
             images = [sim.robots("rover_*")[kind].read() for sim in (local, remote)]
             np.testing.assert_array_equal(images[1], images[0])
         for sim in (local, remote):
-            sim.spawn(_rover("rover_2", 0, ".8 .2 .2"), ["rover_2"], [[1.5, 0.2, 1, 0, 0, 0, 1]])
-        here, again = (sim.robots("rover_*")["camera"].read() for sim in (local, remote))
-        np.testing.assert_array_equal(again, here)
-        assert len(again) == 3 and not np.array_equal(again[:2], there), "the new robot is seen"
+            added = f'<sdf version="1.9">{_rover("rover_2", 0, ".8 .2 .2")}</sdf>'
+            sim.spawn(added, ["rover_2"], [[2.2, -0.6, 0, 0, 0, 0, 1]])
+        for robots in ("rover_[01]", "rover_2"):
+            here, again = (sim.robots(robots)["camera"].read() for sim in (local, remote))
+            np.testing.assert_array_equal(again, here)
+        assert not np.array_equal(remote.robots("rover_0")["camera"].read(), there[:1]), "the new robot is seen"
 
 
 def test_waits_as_long_as_the_program_thinks(name):
