@@ -89,7 +89,7 @@ void check_input(const Model& model, Tick tick, std::span<const RobotId> robots,
                                                  " at tick " + std::to_string(tick));
 }
 
-/// Marks the robots that have an order at this tick.
+/// Marks the robots that have an order at this tick which may move them.
 void apply_orders(const Model& model, std::span<const RobotId> robots, std::span<RobotState* const> states,
                   std::span<const Order> orders, std::vector<char>& ordered) {
     ordered.assign(robots.size(), 0);
@@ -98,7 +98,7 @@ void apply_orders(const Model& model, std::span<const RobotId> robots, std::span
         if (found == robots.end() || *found != order.robot) continue;
         const auto i = static_cast<std::size_t>(found - robots.begin());
         apply_order(model, order, *states[i]);
-        ordered[i] = 1;
+        if (!std::holds_alternative<Transmit>(order.action)) ordered[i] = 1;
     }
 }
 

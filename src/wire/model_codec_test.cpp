@@ -33,7 +33,7 @@ std::vector<SensorSpec> sensors_of_all_kinds() {
     std::vector<SensorSpec> sensors;
     const auto add = [&](SensorParameters parameters) {
         double next = 1;
-        visit_parameters(parameters, [&]<class Value>(const Parameter&, Value& value) {
+        visit_parameters(parameters, [&]<class Value>(const Parameter& parameter, Value& value) {
             if constexpr (std::is_same_v<Value, NoiseSpec>)
                 value.mean = ++next, value.stddev = ++next, value.bias_mean = ++next,
                 value.bias_stddev = ++next, value.precision = ++next, value.dynamic_bias_stddev = ++next,
@@ -52,6 +52,9 @@ std::vector<SensorSpec> sensors_of_all_kinds() {
                 value = {++next, ++next};
             else if constexpr (std::is_same_v<Value, bool>)
                 value = !value;
+            else if (std::string_view(parameter.name) == "latency" ||
+                     std::string_view(parameter.name) == "loss")
+                value = static_cast<Value>(1 / ++next);  // of a radio: below 1
             else
                 value = static_cast<Value>(++next);
         });

@@ -21,6 +21,7 @@ constexpr int kCrates = 9;
 /// Crates with radios that are thrown at each other over a floor; a wall stands in the middle.
 std::shared_ptr<const Model> crates() {
     World world = empty_world(2e-3);
+    world.sleep = true;
     ModelSpec floor = solid_box(1, {40, 40, 1}, surface(0.5)), wall = solid_box(1, {0.2, 6, 2}, surface(0.5));
     floor.is_static = wall.is_static = true;
     place(world, floor, "floor", {{0, 0, -0.5}, {}});
@@ -60,12 +61,13 @@ class Chatter : public ControlProgram {
     void control(Client& client) override {
         const Tick tick = client.tick();
         for (int i = 0; i < kCrates; ++i) {
-            const double to = 2 - (tick / 50 + i) % 5;
+            const double to = 2.0 - static_cast<double>((tick / 50 + i) % 5);
             if (tick % 50 == 0) (void)client.set_velocity(crate(i), {to, 0.5 * i - 2, 1}, {0, 1, to});
             if ((tick + 7 * i) % 60 == 0)
                 (void)client.transmit(crate(i), "radio", "hello" + std::to_string(i));
             for (RadioMessage& m : client.received(crate(i), "radio")) {
-                if (m.payload.size() < 9) (void)client.transmit(crate(i), 0, "answered!", m.from);
+                const bool answers = (m.number + static_cast<std::uint64_t>(i)) % 4 == 0;  // not all at once
+                if (answers && m.payload.size() < 9) (void)client.transmit(crate(i), 0, "answered!", m.from);
                 heard_.push_back({tick, i, std::move(m)});
             }
         }
@@ -108,7 +110,7 @@ TEST(RadioRuns, HearTheSameForAllGroupings) {
         EXPECT_GT(h.message.arrived, h.observed - 5) << "heard at the first observation that has it";
         answers += h.message.payload.size() == 9 ? 1 : 0;
     }
-    EXPECT_GT(answers, 10u);
+    EXPECT_GT(answers, 3u);
     EXPECT_GT(one.heard.size(), 50u);
     for (const std::size_t simulators : {1u, 4u})
         for (const unsigned threads : {1u, 2u})
@@ -167,6 +169,7 @@ TEST(RadioRuns, AReplayHasTheSameTransmissions) {
         auto writer = std::move(JournalWriter::open(file)).value();
         ASSERT_TRUE(writer->start_branch({}, *model).ok());
         simulation->start_log(writer.get(), 100);
+        ASSERT_TRUE(writer->flush().ok());
         ASSERT_TRUE(simulation->run_until(kEnd).ok());
         ASSERT_TRUE(writer->close().ok());
     }
@@ -178,7 +181,7 @@ TEST(RadioRuns, AReplayHasTheSameTransmissions) {
     std::uint64_t count = 0;
     for (const RobotState& state : replayed.value()->states())
         if (!state.radios.empty()) count += state.radios[0].count;
-    EXPECT_GT(count, 50u);
+    EXPECT_GT(count, 15u);
     std::filesystem::remove(file);
 }
 
