@@ -28,7 +28,7 @@ struct TwoMembers {
     int a;
     std::vector<double> b;
 };
-static_assert(member_count<TwoMembers>() == 2 && member_count<NoiseSpec>() == 5);
+static_assert(member_count<TwoMembers>() == 2 && member_count<NoiseSpec>() == 7);
 
 /// Members, not elements: two elements may stand for one member.
 struct ParameterCounter {
