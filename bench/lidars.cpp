@@ -1,6 +1,7 @@
 // What lidars cost: rays a second of scans of 1 x 360, 16 x 1800 and 128 x 1024 beams, on cars of the city
 // (worlds/city.sdf). Every iteration moves the cars, so it includes the update of the ray scene; without
-// noise. Wall-clock time; the arguments are rows, columns, robots that carry a lidar, and threads.
+// noise. Wall-clock time, and the processor time of all threads; the arguments are rows, columns, robots that
+// carry a lidar, and threads.
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
@@ -109,7 +110,7 @@ void sizes(benchmark::internal::Benchmark* benchmark) {
     for (const int threads : {1, 2})
         for (const auto& size : {std::pair(1, 360), std::pair(16, 1800), std::pair(128, 1024)})
             for (const int robots : {1, 10, 100}) benchmark->Args({size.first, size.second, robots, threads});
-    benchmark->UseRealTime()->Unit(benchmark::kMillisecond);
+    benchmark->UseRealTime()->MeasureProcessCPUTime()->Unit(benchmark::kMillisecond);
 }
 
 BENCHMARK(lidar_scan)->Apply(sizes);
