@@ -98,6 +98,10 @@ class OrderFile:
         robot.apply_wrench(order.get("force", [0, 0, 0]) + order.get("torque", [0, 0, 0]), order["link"],
                            ticks=round(order["duration"] / self.sim.dt))
 
+    def transmit(self, robot, order):
+        payload = bytes.fromhex(order["hex"]) if "hex" in order else order["text"]
+        robot[order["radio"]].send(payload, to=order.get("to"))
+
     def attach(self, robot, order):
         self.sim.attach(robot.names[0], order["robot"], max_force=order.get("max_force", float("inf")))
 

@@ -11,6 +11,7 @@
 #include "core/thread_pool.h"
 #include "physics/dynamics/kinematics.h"
 #include "sensors/infinity.h"
+#include "sensors/ray_shape.h"
 #include "sensors/ray_tracer.h"
 #include "sensors/ray_tree.h"
 #include "sensors/readings.h"
