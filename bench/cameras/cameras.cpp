@@ -27,7 +27,7 @@ class City {
         if (!world) throw std::runtime_error("worlds/city.sdf cannot be read");
         model_ = compile(*world, {}, diagnostics);
         const auto kept = std::make_shared<const World>(*std::move(world));
-        scene_ = std::make_unique<CameraScene>(model_, visuals_of({kept})(*model_), threads);
+        scene_ = std::make_unique<CameraScene>(model_, visuals_of({kept})(*model_).value(), threads);
         for (std::size_t i = 0; i < model_->robots.size(); ++i)
             states_.push_back(initial_state(*model_, RobotId(i)));
         for (const RobotState& state : states_) pointers_.push_back(&state);
