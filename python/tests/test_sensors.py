@@ -74,14 +74,16 @@ def test_an_arm_with_infrared_effort_and_stereo_cameras():
     world = """<sdf version="1.9" xmlns:roboss="urn:roboss:1"><world name="w">
     <model name="wall"><static>true</static><pose>1.5 0 1 0 0 0</pose><link name="l"><collision name="c">
     <laser_retro>40</laser_retro><geometry><box><size>1 9 9</size></box></geometry></collision></link></model>
-    <model name="arm"><link name="base"><inertial><mass>1</mass></inertial>
+    <model name="arm"><link name="base"><inertial><mass>1</mass>
+    <inertia><ixx>1</ixx><iyy>1</iyy><izz>1</izz></inertia></inertial>
     <roboss:sensor name="ir" type="infrared"><pose>0 0 0.5 0 0 0</pose><max>2</max></roboss:sensor>
     <roboss:sensor name="effort" type="joint_effort"><joint>hinge</joint></roboss:sensor>
     <sensor name="imu" type="imu"><imu><orientation_reference_frame><localization>NED</localization>
     </orientation_reference_frame></imu></sensor>
     <sensor name="scan" type="lidar"><lidar><scan><horizontal><roboss:angles>-0.5 0 0.3</roboss:angles></horizontal></scan>
     <range><min>.01</min><max>5</max></range></lidar></sensor></link>
-    <link name="rod"><pose>0 0 2 0 0 0</pose><inertial><pose>0.5 0 0 0 0 0</pose><mass>2</mass></inertial></link>
+    <link name="rod"><pose>0 0 2 0 0 0</pose><inertial><pose>0.5 0 0 0 0 0</pose><mass>2</mass>
+    <inertia><ixx>1</ixx><iyy>1</iyy><izz>1</izz></inertia></inertial></link>
     <joint name="weld" type="fixed"><parent>world</parent><child>base</child></joint>
     <joint name="hinge" type="revolute"><parent>base</parent><child>rod</child><axis><xyz>0 1 0</xyz>
     <limit><lower>0</lower><upper>1</upper></limit></axis></joint></model></world></sdf>"""
