@@ -5,21 +5,15 @@
 #include <cmath>
 
 #include <support/robots.h>
-#include <support/simulation.h>
 
-#include "sensors/test_model.h"
+#include "sensors/test_simulation.h"
 
 namespace roboss {
 namespace {
 
-constexpr double kG = 9.81;
+using sensors_test::reading_of;
 
-template <class Reading>
-Reading reading_of(const test::Simulation& sim, std::size_t robot = 0, std::size_t sensor = 0) {
-    std::vector<const RobotState*> states;
-    for (const RobotState& state : sim.states) states.push_back(&state);
-    return sensors_test::read_as<Reading>(sim.model, states, sensor, sim.tick, 1, robot);
-}
+constexpr double kG = 9.81;
 
 /// A rod of 2 kg and 1 m that a position motor holds out level from a fixed hinge.
 TEST(JointEffort, IsTheTorqueThatHoldsAnArmLevel) {

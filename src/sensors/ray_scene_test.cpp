@@ -7,6 +7,7 @@
 #include "core/noise.h"
 #include "sensors/ray_shape.h"
 #include "sensors/readings.h"
+#include "sensors/test_draws.h"
 #include "sensors/test_model.h"
 
 namespace roboss {
@@ -16,18 +17,10 @@ using namespace sensors_test;
 
 constexpr double kNone = std::numeric_limits<double>::infinity();
 
-/// Random numbers of one test scene, drawn in order.
-class Draws {
+/// Random poses and shapes, too.
+class SceneDraws : public Draws {
   public:
-    explicit Draws(std::uint64_t seed) : stream_{seed, 0, 0, 0} {}
-    double between(double low, double high) { return low + (high - low) * random_uniform(stream_, index_++); }
-    Vec3 in_cube(double half) { return {between(-half, half), between(-half, half), between(-half, half)}; }
-    Vec3 direction() {
-        for (;;) {
-            const Vec3 v = in_cube(1);
-            if (norm(v) > 0.1 && norm(v) < 1) return normalized(v);
-        }
-    }
+    using Draws::Draws;
     Pose pose(double half) { return {in_cube(half), exponential(direction() * between(0, 3))}; }
     Shape shape() {
         const auto kind = static_cast<ShapeKind>(1 + static_cast<int>(between(0, 4)));
@@ -36,10 +29,6 @@ class Draws {
                 between(0.05, 1),
                 between(0.05, 1.5)};
     }
-
-  private:
-    NoiseStream stream_;
-    std::uint64_t index_ = 0;
 };
 
 double cast_one(RayScene& scene, const RayScene::Ray& ray) {
@@ -65,7 +54,7 @@ double oracle(const Model& model, const std::vector<RobotState>& states, const R
 
 /// Compares many rays with the oracle; returns how many hit anything.
 int compare_with_oracle(std::uint64_t seed, const Vec3& far_away, double half) {
-    Draws draws(seed);
+    SceneDraws draws(seed);
     auto model = model_of(cart_type(), 40);
     const auto place = [&] {
         Pose X = draws.pose(half);
