@@ -4,8 +4,9 @@
 #include <cmath>
 
 #include <support/robots.h>
+#include <support/simulation.h>
 
-#include "sensors/test_simulation.h"
+#include "sensors/test_model.h"
 
 namespace roboss {
 namespace {

@@ -124,4 +124,12 @@ inline RobotState cart_at(const Pose& X_WB) {
     return state;
 }
 
+/// What a sensor of a test::Simulation measures now, with seed 1.
+template <class Reading, class Simulation>
+Reading reading_of(const Simulation& sim, std::size_t robot = 0, std::size_t sensor = 0) {
+    std::vector<const RobotState*> states;
+    for (const RobotState& state : sim.states) states.push_back(&state);
+    return read_as<Reading>(sim.model, states, sensor, sim.tick, 1, robot);
+}
+
 }  // namespace roboss::sensors_test
