@@ -111,10 +111,12 @@ function worldFacts(state: ViewerState): HTMLElement {
             world = state.world.value;
         dot.dataset.state = state.link.value.state !== "open" ? "gone" : status?.paused === true ? "paused" : "running";
         setText(name, world?.fleet.scene.world ?? "");
-        const parts = world === null ? [] : [`${short(world.fleet.count)} robots`];
+        const parts =
+            world === null ? [] : [`${short(world.fleet.count)} ${world.fleet.count === 1 ? "robot" : "robots"}`];
         if (status !== null) {
             parts.push(`${status.simulators} ${status.simulators === 1 ? "Simulator" : "Simulators"}`);
-            if ((status.islands ?? 0) > 0) parts.push(`${short(status.islands)} islands`);
+            if ((status.islands ?? 0) > 0)
+                parts.push(`${short(status.islands)} ${status.islands === 1 ? "island" : "islands"}`);
             if (typeof status.efficiency === "number" && status.simulators > 1)
                 parts.push(`efficiency ${percent(status.efficiency)}`);
         }
