@@ -1,6 +1,6 @@
 // Radio: a bar from sender to receiver for each message that was received lately, coloured by how far it was above the
-// noise floor; it grows thin with age, and a bead shows the direction. A ring round an antenna: it has sent something,
-// heard or not.
+// noise floor and seen through whatever is in front. It grows thin with age; a bead shows the direction. A ring round an
+// antenna: it has sent something, heard or not.
 import * as THREE from "three";
 import { linkPose } from "../kinematics/link_pose";
 import { transform } from "../kinematics/pose";
@@ -15,9 +15,9 @@ const WEAK = new THREE.Color(0xff5d4d),
     SENDER = new THREE.Color(0x5aa9ff),
     CHOSEN = new THREE.Color(0xff5fd2);
 /** Of the distance from the camera: about as wide on the screen everywhere. */
-const RADIUS_OF_DISTANCE = 0.0018;
+const RADIUS_OF_DISTANCE = 0.0032;
 const RING_OF_DISTANCE = 0.05;
-const BEAD = 3;
+const BEAD = 2.2;
 const RING_STEPS = 32;
 const UP = new THREE.Vector3(0, 1, 0);
 
@@ -31,6 +31,7 @@ export class RadioMarks {
     private beads: THREE.InstancedMesh;
     private readonly material = new THREE.MeshBasicMaterial({
         toneMapped: false,
+        depthTest: false,
         depthWrite: false,
         transparent: true,
         opacity: 0.85,
@@ -88,7 +89,7 @@ export class RadioMarks {
             if (a === null || b === null) continue;
             const colour = this.colourOf(what),
                 radius = this.stage.camera.position.distanceTo(a.clone().lerp(b, 0.5)) * RADIUS_OF_DISTANCE;
-            this.drawBar(bars++, a, b, radius * (1 - age / LINK_SHOWN_S), colour);
+            this.drawBar(bars++, a, b, radius * (1 - (0.7 * age) / LINK_SHOWN_S), colour);
             if (age < PULSE_S) this.drawBead(beads++, a.lerp(b, age / PULSE_S), radius * BEAD, colour);
         }
         this.bars.count = bars;
