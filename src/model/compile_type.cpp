@@ -237,10 +237,11 @@ class PartBuilder {
             link.carrier = hangs_on_[l].joint, link.parent = hangs_on_[l].parent;
             const LinkId id(part_.type.links.size());
             if (body >= 0) add_mass(part_.type.bodies[static_cast<std::size_t>(body)], link);
-            add_shapes(spec, link, id);
+            const std::vector<std::size_t> shapes = add_shapes(spec, link, id);
             if (spec.drag.acts && body >= 0) part_.type.drags.push_back(drag_of(spec, id));
             add_fluid(spec, id, body);
-            for (const SensorSpec& sensor : spec.sensors) part_.type.sensors.push_back({sensor, id});
+            for (const SensorSpec& sensor : spec.sensors)
+                part_.type.sensors.push_back({with_chosen_shapes(sensor, spec, shapes, diagnostics_), id});
             part_.type.links.push_back(link);
         }
     }
@@ -264,8 +265,11 @@ class PartBuilder {
             part_.type.fluids.push_back({id, floats, spec.added_mass});
     }
 
-    void add_shapes(const LinkSpec& spec, const Link& link, LinkId id) {
+    /// Returns how many shapes each collision became.
+    std::vector<std::size_t> add_shapes(const LinkSpec& spec, const Link& link, LinkId id) {
+        std::vector<std::size_t> counts;
         for (const CollisionSpec& collision : spec.collisions) {
+            const std::size_t first = part_.type.shapes.size();
             for (const PlacedShape& placed : shapes_.shapes_of(collision, false)) {
                 BodyShape shape;
                 shape.shape = placed.shape;
@@ -280,7 +284,9 @@ class PartBuilder {
                 shape.laser_retro = collision.laser_retro;
                 part_.type.shapes.push_back(shape);
             }
+            counts.push_back(part_.type.shapes.size() - first);
         }
+        return counts;
     }
 
     /// Friction directions that are written in the frame of another link: it is in the same nested model.

@@ -2,6 +2,7 @@
 // robots of their own: a bigger unit would only make islands larger). Internal to the model layer.
 #pragma once
 
+#include <span>
 #include <string>
 #include <vector>
 
@@ -64,6 +65,11 @@ void add_mass(Body& body, const Link& link);
 /// warning. `links`: of type.links in `spec`.
 void mend_inertia(RobotType& type, const ModelSpec& spec, const std::vector<std::size_t>& links,
                   Diagnostics& diagnostics);
+
+/// A contact sensor of `link` with the numbers of the shapes that it names by their collisions; other sensors
+/// as they are. `shapes`: how many shapes each collision of the link became.
+SensorSpec with_chosen_shapes(SensorSpec sensor, const LinkSpec& link, std::span<const std::size_t> shapes,
+                              Diagnostics& diagnostics);
 
 /// Reports sensors that read a joint of another part of their model, or one that is left without motion.
 void check_joints_read(const RobotType& type, const std::string& robot, Diagnostics& diagnostics);

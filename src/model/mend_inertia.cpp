@@ -38,7 +38,7 @@ double missing_moment(const Mat3& m, double mass) {
     return floor - std::min(0.0, least_moment(m));
 }
 
-std::string text(double value) {
+std::string three_digits(double value) {
     char buffer[32];
     std::snprintf(buffer, sizeof buffer, "%.3g", value);
     return buffer;
@@ -73,7 +73,7 @@ void mend_inertia(RobotType& type, const ModelSpec& spec, const std::vector<std:
             body.inertia_C = body.inertia_C + more;
             diagnostics.warning(source.where, "small-inertia",
                                 "link '" + link.name + "' of model '" + spec.name +
-                                    "' can turn and has no inertia about some axis; " + text(moment) +
+                                    "' can turn and has no inertia about some axis; " + three_digits(moment) +
                                     " kg m^2 are added about each",
                                 "Write its moments of inertia about the centre of mass.");
         }

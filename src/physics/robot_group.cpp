@@ -164,11 +164,11 @@ void RobotGroup::keep_contact_reports() {
         const RobotWork& a = robots_[static_cast<std::size_t>(c.robot_a)];
         ContactReport report;
         report.robot_a = a.id;
-        report.link_a = a.type->shapes[c.shape_a].link;
+        report.shape_a = c.shape_a, report.link_a = a.type->shapes[c.shape_a].link;
         if (c.robot_b >= 0) {
             const RobotWork& b = robots_[static_cast<std::size_t>(c.robot_b)];
             report.robot_b = b.id;
-            report.link_b = b.type->shapes[c.shape_b].link;
+            report.shape_b = c.shape_b, report.link_b = b.type->shapes[c.shape_b].link;
         } else {
             report.scenery = c.shape_b;
         }

@@ -87,6 +87,8 @@ struct ContactReport {
         robot_b;                // robot B; not valid: static scenery
     LinkId link_a,              // of robot A, that is touched
         link_b;                 // of robot B; not valid: static scenery
+    std::uint32_t shape_a = 0,  // of RobotType::shapes
+        shape_b = 0;            // likewise, of robot B
     std::uint32_t scenery = 0;  // index in Model::statics, if it is that
     Vec3 p_W;                   // m, where A is pushed, at the beginning of the tick
     Vec3 shift_b;               // m, from there to where B is: not zero if they come together in the tick

@@ -31,9 +31,13 @@ struct ContactReading {
     }
 };
 
-/// All collisions of the link count.
+/// Without names, all collisions of the link count.
 struct ContactSpec {
     using Reading = ContactReading;  ///< what it measures
+
+    std::vector<std::string> collisions;  ///< SDF `<collision>`: names of collisions of the link
+    /// What compile() makes of the names: numbers of shapes among those of the link, ascending; empty: all.
+    std::vector<double> shapes;
 
     /// Its elements of SDF that have no effect.
     static constexpr IgnoredElement kIgnored[] = {
@@ -48,9 +52,12 @@ struct ContactSpec {
                                       .needs_all_states = true,
                                       .ignored = kIgnored};
 
-    /// It has none: `<collision>` names collisions of the link, and all of them count.
+    /// Calls visit(Parameter, value) for each parameter, always in the same order.
     template <class Visitor, class Self>
-    static void parameters(Visitor&&, Self&) {}
+    static void parameters(Visitor&& visit, Self& s) {
+        visit({.name = "collisions", .element = "collision", .later = true}, s.collisions);
+        visit({.name = "shapes", .element = "", .later = true}, s.shapes);
+    }
     /// Compares all members.
     friend bool operator==(const ContactSpec&, const ContactSpec&) = default;
     /// Adds why it cannot measure, if it cannot.

@@ -1,6 +1,7 @@
 // Altimeter, magnetometer, contact and force-torque sensor against closed forms.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include <support/robots.h>
@@ -63,6 +64,89 @@ TEST(ContactSensor, ReadsTheWeightOfARestingBox) {
         on_upper += upper.forces[3 * i + 2];
     }
     EXPECT_NEAR(on_upper, 2 * kG, 0.01);
+}
+
+/// A table on four legs of one link, whose sensors feel two legs, all, and the top.
+TEST(ContactSensor, FeelsTheCollisionsThatItNames) {
+    World world = test::empty_world(1e-3, {0, 0, -kG});
+    test::place(world, test::ground(test::surface(0.5)), "ground");
+    ModelSpec table = test::solid_box(4, {1, 1, 0.1}, test::surface(0.5));
+    LinkSpec& link = table.links[0];
+    link.collisions[0].name = "top";
+    for (const double x : {-0.4, 0.4})
+        for (const double y : {-0.4, 0.4}) {
+            CollisionSpec leg = link.collisions[0];
+            leg.name = "leg_" + std::to_string(link.collisions.size());
+            leg.geometry.size = {0.1, 0.1, 0.5};
+            leg.X_LS.p = {x, y, -0.3};
+            link.collisions.push_back(leg);
+        }
+    const auto feels = [&](std::vector<std::string> names) {
+        ContactSpec contact;
+        contact.collisions = std::move(names);
+        link.sensors.push_back(sensors_test::sensor("feels_" + std::to_string(link.sensors.size()), contact));
+    };
+    feels({"leg_1", "table::body::leg_2"});
+    feels({"top", "leg_1", "leg_2", "leg_3", "leg_4"});
+    feels({"top"});
+    feels({"leg_3", "leg_5"});
+    test::place(world, table, "table", {{0, 0, 0.55}, {}});
+    test::Simulation sim(world);
+    sim.run(1);
+    const auto weight = [&](std::size_t sensor) {
+        double up = 0;
+        const auto reading = reading_of<ContactReading>(sim, 0, sensor);
+        for (std::size_t i = 0; i < reading.count(); ++i) up += reading.forces[3 * i + 2];
+        return up;
+    };
+    EXPECT_NEAR(weight(0), 2 * kG, 0.01);
+    EXPECT_NEAR(weight(1), 4 * kG, 0.01);
+    EXPECT_EQ(weight(2), 0);
+    EXPECT_NEAR(weight(3), kG, 0.01) << "one that it does not have is left out";
+    EXPECT_TRUE(sim.type(0).sensors[1].spec.as<ContactSpec>()->shapes.empty())
+        << "the hash of a sensor of all";
+}
+
+TEST(ContactSensor, OfASceneryFeelsTheCollisionsThatItNames) {
+    World world = test::empty_world(1e-3, {0, 0, -kG});
+    ModelSpec shelf = test::solid_box(1, {1, 1, 0.1}, test::surface(0.5));
+    shelf.is_static = true;
+    LinkSpec& link = shelf.links[0];
+    link.collisions[0].name = "low";
+    link.collisions.push_back(link.collisions[0]);
+    link.collisions[1].name = "high";
+    link.collisions[1].X_LS.p = {5, 0, 1};
+    ContactSpec contact;
+    contact.collisions = {"high"};
+    link.sensors = {sensors_test::sensor("high", contact)};
+    const ModelSpec box = test::solid_box(2, {0.4, 0.2, 0.1}, test::surface(0.5));
+    test::place(world, shelf, "shelf");
+    test::place(world, box, "on_low", {{0, 0, 0.1}, {}});
+    test::place(world, box, "on_high", {{5, 0, 1.1}, {}});
+    test::Simulation sim(world);
+    sim.run(1);
+    const auto reading = reading_of<ContactReading>(sim);
+    double down = 0;
+    for (std::size_t i = 0; i < reading.count(); ++i) {
+        EXPECT_EQ(reading.others[i], 2) << "the box on the high board";
+        down += reading.forces[3 * i + 2];
+    }
+    EXPECT_NEAR(down, -2 * kG, 0.01);
+}
+
+TEST(ContactSensor, ANameThatItsLinkDoesNotHaveIsAWarning) {
+    World world = test::empty_world(1e-3);
+    ModelSpec box = test::solid_box(2, {0.4, 0.2, 0.1}, test::surface(0.5));
+    ContactSpec contact;
+    contact.collisions = {"bumper"};
+    box.links[0].sensors = {sensors_test::sensor("feels", contact)};
+    test::place(world, box, "box");
+    Diagnostics diagnostics;
+    const auto model = compile(world, {}, diagnostics);
+    ASSERT_NE(model, nullptr);
+    EXPECT_TRUE(std::ranges::any_of(diagnostics.items(),
+                                    [](const Diagnostic& d) { return d.code == "unknown-collision"; }));
+    EXPECT_TRUE(model->types[0].sensors[0].spec.as<ContactSpec>()->shapes.empty()) << "all count";
 }
 
 /// A rod of 2 kg and 1 m that a position motor holds out level from a fixed hinge.
