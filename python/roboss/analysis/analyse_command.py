@@ -102,7 +102,7 @@ def _arm(options: Any, progress: Progress) -> Any:
         conditions = [analyse_arm(part.time, part[measured], part[commanded], name=name, band=options.band)
                       for name, part in _conditions(recording)]
         return arm_report(f"Arm: {measured}", conditions, [("Recording", options.source)])
-    from .arm_test import ArmDriver, ArmTest
+    from .arm_driver import ArmDriver, ArmTest
     load_options = {"ground": options.ground, "fixed_base": options.fixed_base}
     if options.cycles < 2 or options.servo_hz <= 0 or min(options.speeds) <= 0 or min(options.loads) < 0:
         raise ArgumentError("too few cycles, or a speed, load or bandwidth that is too low",
@@ -170,7 +170,7 @@ def _joined(recordings: list[Recording]) -> Recording:
 
 def _vehicle(options: Any, progress: Progress) -> Any:
     from .reports import vehicle_report
-    from .vehicle_test import VehicleDriver, VehicleTest
+    from .vehicle_driver import VehicleDriver, VehicleTest
     if min(options.speed, options.radius, options.side) <= 0 or options.runs < 1:
         raise ArgumentError("a speed, radius or side that is not above 0, or no runs", "give numbers above 0", "bad-value")
     driver = VehicleDriver(VehicleTest(options.source, options.robot, options.left, options.right, options.speed, options.radius,
