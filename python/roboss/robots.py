@@ -188,7 +188,7 @@ class Robots:
         >>> sim = roboss.Simulation(roboss.example("crossroads.sdf"))
         >>> sim.robots("car_2").twist = [2, 0, 0, 0, 0, 0]
         >>> kinetic, potential = sim.robots("car_2").energy[0]
-        >>> round(kinetic, 2)                                           # m v^2 / 2, of 6.2 kg
+        >>> float(round(kinetic, 2))                                    # m v^2 / 2, of 6.2 kg
         12.4
         """
         return self._read(self._core.energies, 2)

@@ -25,7 +25,7 @@ def command(*arguments, code=0):
 @pytest.fixture(scope="module")
 def journal(tmp_path_factory):
     """A journal of a second of cars under orders."""
-    from roboss.analysis.record import journal_of_run
+    from roboss.analysis.recorder import journal_of_run
     return journal_of_run(CROSSROADS, 1.0, tmp_path_factory.mktemp("journal"), orders=str(ORDERS))
 
 
@@ -62,7 +62,7 @@ def test_a_journal_gives_afterwards_what_the_run_gave(journal, tmp_path):
 
 
 def test_a_free_run_is_recorded_as_its_journal(tmp_path):
-    from roboss.analysis.record import journal_of_run
+    from roboss.analysis.recorder import journal_of_run
     path = journal_of_run(CROSSROADS, 0.3, tmp_path)
     assert analysis.record(path, PATTERNS).values.tobytes() == analysis.record(CROSSROADS, PATTERNS, until=0.3).values.tobytes()
 
@@ -180,7 +180,7 @@ def test_a_walker_s_demand_is_that_of_its_motors(tmp_path):
     built = world.build()
     sim = roboss.Simulation(built)
     sim.robots("slider").set_joint_targets(3.0, mode="effort")
-    analysis.write(analysis.record(sim, "slider.*", until=0.2, every=sim.dt), tmp_path / "run.parquet")
+    analysis.write(analysis.record(sim, "slider.**", until=0.2, every=sim.dt), tmp_path / "run.parquet")
     result = json.loads(command("analyse", "walker", tmp_path / "run.parquet", "--from", 0.05, "-o", tmp_path / "walker.html", "--json"))
     joint, = result["tables"]["Demand of each joint"]
     assert joint["Joint"] == "lift" and joint["rms [N]"] == pytest.approx(3) and joint["peak [N]"] == pytest.approx(3)

@@ -9,7 +9,7 @@ Formulas are functions of arrays, without a simulation: `iso9283` (arms), `vehic
 them with their sources. Files need the extra `analysis` of the package (pyarrow, mcap, matplotlib).
 """
 from .arm import Condition, analyse_arm
-from .record import record
+from .recorder import record
 from .recording import Column, Recording, read, write
 from .variables import Variables
 

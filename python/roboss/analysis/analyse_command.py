@@ -8,7 +8,7 @@ import numpy as np
 
 from ..errors import ArgumentError
 from .command import Parser, Progress
-from .record import is_journal, record
+from .recorder import is_journal, record
 from .record_command import add_common
 from .recording import SUFFIXES, Recording, read, write
 
@@ -27,7 +27,7 @@ _VEHICLE = """Examples:
 The other robots of the world are left out. The vehicle starts where it stands; it needs free, flat ground around it."""
 _WALKER = """Examples:
   roboss analyse walker run.journal --robot spider_0
-  roboss record run.journal 'spider_0.*' -o run.parquet   and then   roboss analyse walker run.parquet
+  roboss record run.journal 'spider_0.**' -o run.parquet   and then   roboss analyse walker run.parquet
   roboss analyse walker run.parquet --robot spider_0 --from 2 --mass 3.5
 
 It takes the efforts and velocities of all joints of the robot, and its pose."""

@@ -22,7 +22,7 @@ from ..simulation import Simulation
 from ..trajectories import ctraj, jtraj
 from ..world import World, load
 from .iso9283 import compliance, cube_poses
-from .record import opened_world
+from .recorder import opened_world
 from .recording import Column, Recording
 
 Floats = NDArray[np.float64]

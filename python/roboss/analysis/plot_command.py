@@ -5,7 +5,7 @@ from typing import Any
 
 from ..errors import ArgumentError
 from .command import Parser, Progress
-from .record import record
+from .recorder import record
 from .record_command import add_common
 
 _EXAMPLES = """Examples:

@@ -9,14 +9,15 @@ from typing import Any
 
 from ..errors import ArgumentError
 from .command import Parser, Progress
-from .record import is_journal, journal_of_run, record
+from .recorder import is_journal, journal_of_run, record
 from .recording import SUFFIXES, write
 
-_EXAMPLES = """Variables are named ROBOT.WHAT; * ? [...] match many. --list shows all that a source has, with units.
+_EXAMPLES = """Variables are named ROBOT.WHAT; * ? [...] match many, up to the next dot, and ** beyond dots. --list shows all that a source has, with units.
   car_3.pose  car_3.x  car_3.speed  car_3.energy  car_3.contacts      of a robot
   arm.elbow.position  .velocity  .effort  .power                     of a joint
   arm.tool.pose  arm.tool.twist                                      of a link
   car_3.laser.ranges                                                 readings of a sensor
+  car_3.**                                                           all of a robot
 
 Examples:
   roboss record worlds/crossroads.sdf --list
@@ -86,7 +87,7 @@ def run(options: Any) -> Any:
 
 
 def _list(options: Any) -> Any:
-    from .record import _opened
+    from .recorder import _opened
     from .variables import Variables
     until = options.until if options.until is not None else None if is_journal(options.source) else 0.0
     run_of, _, _ = _opened(options.source, options.start, until, options.branch)

@@ -1,11 +1,12 @@
 """Recording: variables of a run over time, as tables; what `roboss record` writes and `plot` and `analyse` read."""
 from __future__ import annotations
 
+import functools
 import os
+import re
 from dataclasses import dataclass
-from fnmatch import fnmatchcase
 from pathlib import Path
-from typing import Any, Iterable, Sequence, Union
+from typing import Any, Callable, Iterable, Sequence, Union
 
 import numpy as np
 
@@ -42,9 +43,9 @@ class Recording:
         values: (T, columns).
         facts: what else is known: "world", "world_hash", "dt", "source", "mass_kg" (by robot), "gravity".
 
-    >>> recording = roboss.analysis.read("run.parquet")
-    >>> recording["car_3.speed"].shape, recording["car_3.pose"].shape
-    ((1001,), (1001, 7))
+    >>> recording = roboss.analysis.record(roboss.example("crossroads.sdf"), ["car_3.speed", "car_3.pose"], until=0.1)
+    >>> recording["car_3.speed"].shape, recording["car_3.pose"].shape, recording["car_3.pose.z"].shape
+    ((11,), (11, 7), (11,))
     """
 
     def __init__(self, time: Floats, columns: Sequence[Column], values: Floats, facts: Union[dict[str, Any], None] = None):
@@ -59,7 +60,7 @@ class Recording:
         return tuple(dict.fromkeys(column.variable for column in self.columns))
 
     def select(self, patterns: Union[str, Iterable[str]]) -> list[int]:
-        """Numbers of the columns of variables, or single columns, that match one of the patterns (`*`, `?`, `[...]`).
+        """Numbers of the columns of variables, or single columns, that match one of the patterns (`*`, `?`, `[...]`, `**`).
 
         Raises UnknownNameError where a pattern matches none.
         """
@@ -86,8 +87,25 @@ class Recording:
 
 
 def matches(pattern: str, column: Column) -> bool:
-    """Whether the pattern names the column, or the variable that it is a part of."""
-    return fnmatchcase(column.variable, pattern) or fnmatchcase(column.name, pattern)
+    """Whether the pattern names the column, or the variable that it is a part of. `*` and `?` stop at dots, `**` does not.
+
+    >>> speed, pose = Column("car_3.odometer.speed", "car_3.odometer.speed"), Column("car_3.pose.x", "car_3.pose")
+    >>> [matches(pattern, speed) for pattern in ("car_*.speed", "car_3.*.speed", "car_3.**", "**.speed")]
+    [False, True, True, True]
+    >>> [matches(pattern, pose) for pattern in ("*.pose", "car_[1-4].pose.?", "car_3.*", "car_3")]
+    [True, True, True, False]
+    """
+    found = _expression(pattern)
+    return found(column.variable) is not None or found(column.name) is not None
+
+
+@functools.cache
+def _expression(pattern: str) -> Callable[[str], Any]:
+    """The pattern as a regular expression that is matched in full."""
+    words = {"**": ".*", "*": "[^.]*", "?": "[^.]"}
+    parts = re.split(r"(\*\*|\*|\?|\[!?[^]]+\])", pattern)
+    text = "".join(words.get(part) or (part.replace("[!", "[^") if part.startswith("[") else re.escape(part)) for part in parts)
+    return re.compile(text).fullmatch
 
 
 def write(recording: Recording, path: Union[str, os.PathLike]) -> None:

@@ -38,8 +38,8 @@ class Variables:
     """Variables of a run that match patterns; `read` gives their values at the present tick.
 
     Names are ROBOT.WHAT: `car_3.pose`, `car_3.speed`, `arm.elbow.effort` (a joint), `arm.tool.pose` (a link),
-    `car_3.laser.ranges` (a sensor). docs/analysis.md lists them. A pattern (`*`, `?`, `[...]`) matches variables or
-    single columns: `*.pose`, `car_3.pose.x`.
+    `car_3.laser.ranges` (a sensor). docs/analysis.md lists them. A pattern matches variables or
+    single columns: `*.pose`, `car_3.pose.x`; `*` and `?` stop at dots, `**` does not: `car_3.**` is all of a robot.
 
     Args:
         run: a Simulation or RemoteSimulation.

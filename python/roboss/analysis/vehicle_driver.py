@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from ..errors import ArgumentError
 from ..simulation import Simulation
 from . import vehicle
-from .record import opened_world
+from .recorder import opened_world
 from .recording import Column, Recording
 from .variables import yaw
 
