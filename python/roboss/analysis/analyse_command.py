@@ -72,7 +72,7 @@ def parser() -> Parser:
     walker.add_argument("--mass", type=float, metavar="KG", help="of the robot (default: as recorded)")
     walker.add_argument("--from", type=float, dest="start", metavar="S", help="first time (default: all)")
     walker.add_argument("--until", type=float, metavar="S", help="last time")
-    walker.add_argument("--every", type=float, default=0.002, metavar="S", help="of a journal or world (default: 0.002)")
+    walker.add_argument("--every", type=float, default=0.0, metavar="S", help="of a journal or world (default: each tick)")
     return result
 
 
