@@ -63,6 +63,30 @@ def test_a_program_has_on_a_cluster_what_it_has_in_its_process(name):
         assert remote.status()["tick"] == remote.tick == 120 and len(remote.status()["members"]) == 2
 
 
+def test_radios_hear_what_they_hear_in_one_process(name):
+    def relay(sim):
+        """Each rover passes on what it hears from the one before; what all heard, and the hash."""
+        rovers = sim.robots("rover_*")
+        told = []
+        for step in range(12):
+            if step % 4 == 0:
+                rovers[:1]["radio"].send(f"beacon {step}")
+            heard = rovers["radio"].receive()
+            told.append(heard)
+            for k, row in enumerate(heard):
+                if row and row[0].sender == f"rover_{k - 1}":
+                    rovers[k]["radio"].send(row[0].payload)
+            sim.step(10)
+        return told, sim.state_hash
+
+    world = roboss.example("radio.sdf")
+    with controller(name, "--seed", "3", world=world), roboss.connect(name) as remote:
+        there = relay(remote)
+    here = relay(roboss.Simulation(world, seed=3))
+    assert there == here
+    assert any(message.sender == "rover_1" for told in here[0] for message in told[2]), "passed on"
+
+
 def test_poses_are_orders_and_bonds_hold(name):
     with controller(name, world=roboss.example("bonds.sdf")), roboss.connect(name, period=5) as remote:
         first = remote.world.robots[0]

@@ -251,12 +251,12 @@ RayScene& BusClient::ray_scene() {
 Result<const CameraScene*> BusClient::camera_scene() {
     if (!visuals_) return Client::camera_scene();
     if (!cameras_) {
-        Result<std::shared_ptr<const render::VisualWorld>> visuals = visuals_(*model_);
-        if (!visuals) {
-            outdated_ = outdated_ || visuals.error().code == "changed-world";
-            return visuals.error();
+        auto made = make_camera_scene(visuals_, model_, 1);
+        if (!made) {
+            outdated_ = outdated_ || made.error().code == "changed-world";
+            return made.error();
         }
-        cameras_ = std::make_unique<CameraScene>(model_, std::move(visuals).value(), 1);
+        cameras_ = std::move(made).value();
     }
     if (cameras_tick_ != tick_) {
         std::vector<const RobotState*> states;

@@ -8,7 +8,8 @@
 
 #include "mesh/image_file.h"
 #include "mesh/jpeg_image.h"
-#include "render/lens.h"
+#include "render/image_box.h"
+#include "sensors/channel_order.h"
 #include "sensors/placed_camera.h"
 #include "sensors/readings.h"
 #include "wire/viewer_protocol.h"
@@ -20,7 +21,7 @@ using Json = nlohmann::ordered_json;
 
 constexpr int kQuality = 82;  // of JPEG
 
-/// The same camera with at most so many columns.
+/// The same camera at a lower resolution: at most `columns` columns; 0: the most that pages get.
 CameraOptics scaled(const CameraOptics& optics, std::uint32_t columns) {
     const auto most = static_cast<int>(viewer_protocol::kPictureColumnsMax);
     const int wanted = columns == 0 ? most : std::clamp(static_cast<int>(columns), 16, most);
@@ -116,12 +117,10 @@ Json corners(const render::Lens& lens, const BoxCameraReading& reading, std::siz
     const Vec3 centre{at(reading.positions, 3, 0), at(reading.positions, 3, 1), at(reading.positions, 3, 2)};
     const Quat q{at(reading.orientations, 4, 0), at(reading.orientations, 4, 1),
                  at(reading.orientations, 4, 2), at(reading.orientations, 4, 3)};
+    const Vec3 size{at(reading.sizes, 3, 0), at(reading.sizes, 3, 1), at(reading.sizes, 3, 2)};
     Json list = Json::array();
-    for (int k = 0; k < 8; ++k) {
-        const Vec3 half{((k & 1) != 0 ? 0.5 : -0.5) * at(reading.sizes, 3, 0),
-                        ((k & 2) != 0 ? 0.5 : -0.5) * at(reading.sizes, 3, 1),
-                        ((k & 4) != 0 ? 0.5 : -0.5) * at(reading.sizes, 3, 2)};
-        const auto seen = lens.project(centre + rotate(q, half));
+    for (const Vec3& corner : render::corners_of({size * -0.5, size * 0.5})) {
+        const auto seen = lens.project(centre + rotate(q, corner));
         list.push_back(seen ? Json{seen->first, seen->second} : Json());
     }
     return list;
@@ -151,15 +150,15 @@ struct Photographer {
         }
     }
 
-    Result<Packed> shown(const ColorCameraSpec& camera, const CameraReading& reading) const {
-        return colours("color", in_red_green_blue(camera.format, reading.color), reading);
+    Result<Packed> shown(const ColorCameraSpec&, const CameraReading& reading) const {
+        return colours("color", red_first(reading.color), reading);
     }
     Result<Packed> shown(const DepthCameraSpec&, const DepthCameraReading& reading) const {
         return numbers("depth", "m", reading.depth, reading);
     }
-    Result<Packed> shown(const RgbdCameraSpec& camera, const RgbdCameraReading& reading) const {
+    Result<Packed> shown(const RgbdCameraSpec&, const RgbdCameraReading& reading) const {
         if (wish.depth) return numbers("depth", "m", reading.depth, reading);
-        return colours("color", in_red_green_blue(camera.format, reading.color), reading);
+        return colours("color", red_first(reading.color), reading);
     }
     Result<Packed> shown(const ThermalCameraSpec&, const ThermalCameraReading& reading) const {
         return numbers("temperature", "K", reading.temperature, reading);
@@ -185,10 +184,8 @@ struct Photographer {
     }
 
     /// A page shows red as red, whatever the order in memory is.
-    static Image<std::uint8_t> in_red_green_blue(const std::string& format, Image<std::uint8_t> image) {
-        if (image.channels == 3 && format.starts_with("B"))
-            for (std::size_t i = 0; i + 2 < image.samples.size(); i += 3)
-                std::swap(image.samples[i], image.samples[i + 2]);
+    Image<std::uint8_t> red_first(Image<std::uint8_t> image) const {
+        put_red_first(query.info().spec, image);
         return image;
     }
 };

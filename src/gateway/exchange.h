@@ -25,7 +25,7 @@ struct WatchRequest {
     bool anyone = false;
     std::uint32_t interval_ms = 0;  // between two views; 0: none
     std::vector<RobotId> robots;    // whose exact states are wanted, ascending
-    bool contacts = false, bounds = false, groups = false, profile = false;
+    bool contacts = false, radio = false, bounds = false, groups = false, profile = false;
     bool cameras = false;  // pictures of cameras: the visuals are needed
     friend bool operator==(const WatchRequest&, const WatchRequest&) = default;
 };

@@ -143,6 +143,7 @@ void Inspector::begin(std::shared_ptr<const ShownScene> scene) {
     rays_.reset();
     probe_.reset();
     samples_.all().clear();
+    radio_ = {};
     scene_ = std::move(scene);
     tick_ = rays_tick_ = -1;
     states_.assign(scene_->model->robots.size(), std::nullopt);
@@ -273,6 +274,30 @@ std::string Inspector::contacts() {
     }
     return Json{
         {"type", "overlay"}, {"scene", scene_->number}, {"tick", tick_}, {"contacts", std::move(list)}}
+        .dump();
+}
+
+std::string Inspector::radio() {
+    const Model& model = *scene_->model;
+    const RadioLinks::Look look = radio_.look(model, *this, tick_, scene_->file.seed);
+    Json links = Json::array(), senders = Json::array();
+    for (const RadioLink& link : look.links)
+        links.push_back({{"from", link.from.value},
+                         {"antenna", link.antenna},
+                         {"to", link.to.value},
+                         {"sensor", link.sensor},
+                         {"messages", link.messages},
+                         {"strength", json_of(link.strength_dBm)},
+                         {"margin", json_of(link.margin_dB)},
+                         {"time", static_cast<double>(link.arrived) * model.dt_s}});
+    for (const RadioSender& sender : look.senders)
+        senders.push_back(
+            {{"robot", sender.robot.value}, {"sensor", sender.sensor}, {"messages", sender.messages}});
+    return Json{
+        {"type", "overlay"},
+        {"scene", scene_->number},
+        {"tick", tick_},
+        {"radio", {{"links", std::move(links)}, {"senders", std::move(senders)}, {"all", look.is_complete}}}}
         .dump();
 }
 

@@ -10,6 +10,7 @@
 
 #include "client/held_samples.h"
 #include "gateway/exchange.h"
+#include "gateway/radio_links.h"
 #include "physics/probe.h"
 #include "sensors/readings.h"
 
@@ -32,6 +33,8 @@ class Inspector : private SensorSources {
     std::string robot(RobotId robot);
     /// The JSON of "overlay" with the contacts, once complete().
     std::string contacts();
+    /// The JSON of "overlay" with who hears whom by radio, once complete().
+    std::string radio();
 
   private:
     RayScene& ray_scene() override;
@@ -49,6 +52,7 @@ class Inspector : private SensorSources {
     Tick rays_tick_ = -1;
     HeldSamples samples_;
     std::unique_ptr<StepProbe> probe_;
+    RadioLinks radio_;
 };
 
 }  // namespace roboss

@@ -3,8 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "model/order.h"
 #include "sensors/test_model.h"
 #include "wire/state_block.h"
 
@@ -150,6 +152,46 @@ TEST_F(InspectorTest, TellsOfCommandsSurfacesAndBondsWhereThereAreSome) {
     EXPECT_FALSE(held.contains("bonds"));
     EXPECT_EQ(held["held_by"][0]["other"], 1);
     EXPECT_EQ(held["held_by"][0]["other_link"], 1) << "of the holder";
+}
+
+TEST_F(InspectorTest, TellsWhoHeardWhomByRadioSinceTheLastLook) {
+    auto talking = std::make_shared<Model>(*model);
+    RobotType& type = talking->types[0];
+    sensors_test::add_sensor(type, 1, sensor("radio", RadioSpec{}));
+    const auto radio = static_cast<std::uint32_t>(type.sensors.size() - 1);
+    type.radios = {radio};
+    for (RobotState& state : states) state.radios.resize(1);
+    scene = std::make_shared<const ShownScene>(ShownScene{12, talking, scene->file, ViewLayout(*talking)});
+    inspector.begin(scene);
+    const auto send = [&](Tick tick) {
+        const Order order{tick, ClientId(0u), 0, RobotId(0u), Transmit{0, RobotId(), {1, 2, 3}}};
+        apply_order(*talking, order, states[0]);
+    };
+    const auto look = [&](Tick tick) {
+        inspector.take(block({0, 1}, tick));
+        return Json::parse(inspector.radio())["radio"];
+    };
+    send(38);
+    const Json first = look(60), quiet = look(61);
+    ASSERT_EQ(first["links"].size(), 1u);
+    const Json& link = first["links"][0];
+    EXPECT_EQ(link["from"], 0);
+    EXPECT_EQ(link["to"], 1);
+    EXPECT_EQ(link["antenna"], radio);
+    EXPECT_EQ(link["sensor"], radio);
+    EXPECT_EQ(link["messages"], 1);
+    const double strength = 20 - 40 - 25 * std::log10(9.0);  // antennas 9 m apart
+    EXPECT_NEAR(link["strength"], strength, 0.2) << "the cart is tilted";
+    EXPECT_NEAR(link["margin"], strength + 90, 0.2);
+    EXPECT_NEAR(link["time"], 39 * talking->dt_s, 1e-12);
+    EXPECT_EQ(first["senders"],
+              Json::parse(R"([{"robot": 0, "sensor": )" + std::to_string(radio) + R"(, "messages": 1}])"));
+    EXPECT_EQ(first["all"], true);
+    EXPECT_TRUE(quiet["links"].empty()) << "told already";
+    EXPECT_TRUE(quiet["senders"].empty());
+    send(62), send(63);
+    EXPECT_EQ(look(80)["links"][0]["messages"], 2);
+    EXPECT_EQ(look(70)["links"][0]["messages"], 3) << "after a rewind, all of the last second";
 }
 
 TEST_F(InspectorTest, SensorsWithARateAreReadNoOftenerAndShowWhatTheyHold) {

@@ -207,6 +207,7 @@ PageWatch watch_of(Fields& fields) {
         return fields.fail("overlays", "a list of names"), watch;
     for (const nlohmann::json& overlay : *overlays) {
         watch.contacts = watch.contacts || overlay == "contacts";
+        watch.radio = watch.radio || overlay == "radio";
         watch.bounds = watch.bounds || overlay == "bounds";
         watch.groups = watch.groups || overlay == "groups";
         watch.profile = watch.profile || overlay == "profile";

@@ -41,7 +41,7 @@ struct PageOrder {
 };
 struct PageWatch {
     std::vector<RobotId> robots;
-    bool contacts = false, bounds = false, groups = false, profile = false;
+    bool contacts = false, radio = false, bounds = false, groups = false, profile = false;
     double rate = 30;  // States a second
     std::vector<PictureWish> cameras;
 };

@@ -26,9 +26,9 @@ constexpr std::size_t kQuestionsMax = 200;
 constexpr std::size_t kPreviewsMax = 32;   // pages whose requests are remembered
 constexpr Tick kNoPeriod = Tick{1} << 49;  // the orders' Client observes nothing, and so holds up no window
 
-/// Contacts need everybody's state too.
+/// Contacts and radio links need everybody's state too.
 ViewRequest request_of(const WatchRequest& wanted, const Model& model) {
-    ViewRequest request{model.hash, wanted.interval_ms, 0, wanted.contacts, {}};
+    ViewRequest request{model.hash, wanted.interval_ms, 0, wanted.contacts || wanted.radio, {}};
     for (const RobotId robot : wanted.robots) {
         if (robot.index() >= model.robots.size()) continue;
         request.exact.push_back(robot);

@@ -209,6 +209,7 @@ void ServerCore::watch_changed() {
         const PageWatch& watch = page->watch();
         request.anyone = true;
         request.contacts = request.contacts || watch.contacts;
+        request.radio = request.radio || watch.radio;
         request.bounds = request.bounds || watch.bounds;
         request.groups = request.groups || watch.groups;
         request.profile = request.profile || watch.profile;
@@ -348,7 +349,7 @@ void ServerCore::send_states(const News& news) {
 
 void ServerCore::send_exact() {
     std::map<RobotId, std::string> robots;
-    std::string contacts;
+    std::string contacts, radio;
     for (const auto& [number, page] : std::map(pages_)) {
         for (const RobotId robot : page->watch().robots) {
             if (!inspector_.shows(robot)) continue;
@@ -356,9 +357,15 @@ void ServerCore::send_exact() {
             if (text.empty()) text = inspector_.robot(robot);
             page->send(text, true);
         }
-        if (!page->watch().contacts || !inspector_.complete()) continue;
-        if (contacts.empty()) contacts = inspector_.contacts();
-        page->send(contacts, true);
+        if (!inspector_.complete()) continue;
+        if (page->watch().contacts) {
+            if (contacts.empty()) contacts = inspector_.contacts();
+            page->send(contacts, true);
+        }
+        if (page->watch().radio) {
+            if (radio.empty()) radio = inspector_.radio();
+            page->send(radio, true);
+        }
     }
 }
 

@@ -66,9 +66,9 @@ void RunAccess::set_visuals(render::VisualsOf visuals, unsigned threads) {
 Result<const CameraScene*> RunAccess::camera_scene() {
     if (!visuals_) return SensorSources::camera_scene();
     if (!cameras_) {
-        Result<std::shared_ptr<const render::VisualWorld>> visuals = visuals_(*model_);
-        if (!visuals) return visuals.error();
-        cameras_ = std::make_unique<CameraScene>(model_, std::move(visuals).value(), camera_threads_);
+        auto made = make_camera_scene(visuals_, model_, camera_threads_);
+        if (!made) return made.error();
+        cameras_ = std::move(made).value();
     }
     if (!cameras_are_new_) cameras_->update(pointers());
     cameras_are_new_ = true;

@@ -368,7 +368,8 @@ std::vector<RobotState> carry_over(const ModelEdit& edit, const std::vector<Robo
         });
         for (Bond& bond : state.bonds)
             if (bond.other != RobotId::kNone) bond.other = edit.now[bond.other].value;
-        for (RadioState& radio : state.radios)  // what is for one that is gone is for the sender: for nobody
+        // a message to a removed robot gets its sender as addressee: no radio receives it
+        for (RadioState& radio : state.radios)
             for (Transmission& t : radio.sent)
                 if (t.to != RobotId::kNone) t.to = edit.now[is_gone(t.to) ? i : t.to].value;
         auto& neighbours = state.rest.neighbours;

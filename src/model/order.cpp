@@ -256,7 +256,7 @@ struct Check {
     }
 };
 
-/// Forgets the transmissions that nobody hears any more.
+/// Removes transmissions that are too old to be received.
 void forget_old(RadioState& radio, double now_s) {
     std::size_t count = 0, bytes = 0;
     while (count < radio.sent.size() && radio.sent[count].end_s + RadioState::kKept_s < now_s)

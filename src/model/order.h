@@ -104,8 +104,8 @@ struct Detach {
 };
 
 /// Sends a message by a radio. It begins at once, or when the radio's transmissions before it end, and lasts
-/// as long as its bits take. It moves nothing and wakes nobody. A radio that has no room for it
-/// (RadioState) drops it.
+/// as long as its bits take. It moves no robot and wakes none. A radio that has no room for it (RadioState)
+/// drops it.
 struct Transmit {
     std::uint32_t radio = 0;            ///< in RobotType::radios
     RobotId to;                         ///< the robot that it is for; not valid: everybody

@@ -181,4 +181,11 @@ void CameraScene::share_out(std::size_t count, const std::function<void(std::siz
     });
 }
 
+Result<std::unique_ptr<CameraScene>> make_camera_scene(const render::VisualsOf& visuals,
+                                                       std::shared_ptr<const Model> model, unsigned threads) {
+    Result<std::shared_ptr<const render::VisualWorld>> world = visuals(*model);
+    if (!world) return world.error();
+    return std::make_unique<CameraScene>(std::move(model), std::move(world).value(), threads);
+}
+
 }  // namespace roboss

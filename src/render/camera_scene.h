@@ -88,4 +88,8 @@ class CameraScene {
     render::TraceWorld trace_;
 };
 
+/// The CameraScene of a Model whose visuals `visuals` makes; its errors.
+Result<std::unique_ptr<CameraScene>> make_camera_scene(const render::VisualsOf& visuals,
+                                                       std::shared_ptr<const Model> model, unsigned threads);
+
 }  // namespace roboss

@@ -15,13 +15,6 @@ constexpr const char* kComms = "RFComms|PerfectComms";
 constexpr const char* kCommsFiles = "rf-comms-system|perfect-comms-system";
 constexpr const char* kUsualBroker = "/broker/bind";
 
-std::string without_blanks(std::string text) {
-    const char* const blank = " \n\t\r";
-    text.erase(text.find_last_not_of(blank) + 1);
-    text.erase(0, text.find_first_not_of(blank));
-    return text;
-}
-
 /// A plugin of the world, and the radios that it means.
 struct Broker {
     std::string service;  // at which endpoints bind
@@ -50,7 +43,7 @@ class CommsReader {
     void read_broker(ExtensionElement& record, const PluginName& name, const pugi::xml_node& plugin) {
         Broker broker;
         const auto bind = plugin.child("broker").child("bind_service");
-        broker.service = bind ? without_blanks(bind.text().get()) : kUsualBroker;
+        broker.service = bind ? trimmed(bind.text().get()) : kUsualBroker;
         RadioSpec& radio = broker.radio;
         radio.is_perfect = name.class_name == "PerfectComms" || name.file == "perfect-comms-system";
         radio.collisions = false, radio.obstacle_loss = 0;
@@ -64,7 +57,7 @@ class CommsReader {
         number(record, config, "capacity", radio.bit_rate);
         number(record, config, "tx_power", radio.tx_power);
         number(record, config, "noise_floor", radio.noise_floor);
-        const std::string modulation = without_blanks(config.child("modulation").text().get());
+        const std::string modulation = trimmed(config.child("modulation").text().get());
         if (!modulation.empty() && modulation != "QPSK")
             import_.diagnostics().warning(
                 record.where, "comms",
@@ -87,7 +80,7 @@ class CommsReader {
                 double& value) const {
         const auto node = block.child(child);
         if (!node) return;
-        const std::string text = without_blanks(node.text().get());
+        const std::string text = trimmed(node.text().get());
         const std::optional<double> number = parse_number(text);
         if (number && std::isfinite(*number))
             value = *number;

@@ -28,12 +28,6 @@ PluginName name_of(const ExtensionElement& record, pugi::xml_document& document)
     return plugin_name({nullptr, document.document_element()});
 }
 
-std::string trimmed(const std::string& text) {
-    const char* const blank = " \t\r\n";
-    const std::size_t first = text.find_first_not_of(blank);
-    return first == std::string::npos ? "" : text.substr(first, text.find_last_not_of(blank) - first + 1);
-}
-
 std::vector<std::string> cells_of(const std::string& line) {
     std::vector<std::string> cells;
     std::istringstream stream(line);

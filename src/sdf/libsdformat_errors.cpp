@@ -27,11 +27,6 @@ Element element_named_in(const std::string& message, const Element& model) {
     return model;
 }
 
-std::string trimmed(std::string text) {
-    while (!text.empty() && (text.back() == '\n' || text.back() == ' ')) text.pop_back();
-    return text;
-}
-
 bool is_joint_to_nowhere(const sdf::Error& error) {
     return error.Code() == sdf::ErrorCode::JOINT_CHILD_LINK_INVALID ||
            error.Code() == sdf::ErrorCode::JOINT_PARENT_LINK_INVALID;

@@ -16,14 +16,6 @@ bool is_neutral(const std::string& text, std::string_view neutral) {
     return found;
 }
 
-std::string trimmed(std::string text) {
-    const auto is_space = [](char c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r'; };
-    while (!text.empty() && is_space(text.back())) text.pop_back();
-    std::size_t start = 0;
-    while (start < text.size() && is_space(text[start])) ++start;
-    return text.substr(start);
-}
-
 }  // namespace
 
 bool is_one_of(std::string_view names, const std::string& name) {

@@ -34,11 +34,7 @@ void for_each_kind(Visit&& visit) {
 std::string text_of(const Element& plugin, const char* path) {
     if (*path == '\0') return {};
     const auto [parent, name] = place_of(plugin, path);
-    std::string text = parent.child(name.c_str()).node.text().get();
-    const char* const blank = " \n\t\r";
-    text.erase(text.find_last_not_of(blank) + 1);
-    text.erase(0, text.find_first_not_of(blank));
-    return text;
+    return trimmed(parent.child(name.c_str()).node.text().get());
 }
 
 /// The topic without "/" and "model/NAME/".

@@ -101,6 +101,27 @@ void report_unsupported(const Element& sensor, const SensorSpec& spec, const Imp
             "sensors of type '" + spec.sdf_type + "' are still to come; they measure nothing");
 }
 
+/// All parameters of a kind, from the element that holds them.
+void read_block(SensorParameters& parameters, const Element& sensor, const Element& block,
+                const std::string& scope, const Import& import) {
+    visit_parameters(parameters, ParameterReader{block, scope, import});
+    const SensorKind& kind =
+        std::visit([](const auto& p) -> const SensorKind& { return p.kKind; }, parameters);
+    report_ignored(block, kind.ignored, kind.phrase, import);
+    complete_camera(parameters, sensor, block, import);
+}
+
+/// All but the parameters and the topic.
+SensorSpec head_of(const Element& sensor, const Pose& X_LS, const Import& import) {
+    SensorSpec spec;
+    spec.name = sensor.name();
+    spec.sdf_type = type_of(sensor);
+    spec.where = sensor.where();
+    spec.X_LS = X_LS;
+    spec.update_rate_hz = import.reader.number(sensor, "update_rate", 0);
+    return spec;
+}
+
 SensorParameters read_parameters(const Element& sensor, const SensorSpec& spec, const std::string& scope,
                                  const Import& import) {
     const bool ours = is_ours(sensor);
@@ -121,10 +142,7 @@ SensorParameters read_parameters(const Element& sensor, const SensorSpec& spec, 
                                      "Add the element with its parameters.");
         return UnsupportedSensor{};
     }
-    const ParameterReader reader{block, scope, import};
-    visit_parameters(parameters, reader);
-    report_ignored(block, kind.ignored, kind.phrase, import);
-    complete_camera(parameters, sensor, block, import);
+    read_block(parameters, sensor, block, scope, import);
     if (auto* environmental = std::get_if<EnvironmentalSpec>(&parameters))
         complete(*environmental, sensor, spec.sdf_type, import);
     return parameters;
@@ -138,29 +156,19 @@ std::vector<SensorSpec> convert_multicamera(const Element& sensor, const Pose& X
     if (type_of(sensor) != "multicamera") return cameras;
     for (const auto node : sensor.node.children("camera")) {
         const Element camera{sensor.source, node};
-        SensorSpec& spec = cameras.emplace_back();
+        SensorSpec& spec = cameras.emplace_back(head_of(sensor, X_LS, import));
         const std::string own = camera.name().empty() ? std::to_string(cameras.size()) : camera.name();
-        spec.name = sensor.name() + "/" + own;
-        spec.sdf_type = "multicamera";
+        spec.name += "/" + own;
         spec.where = camera.where();
-        spec.X_LS = X_LS;
-        spec.update_rate_hz = import.reader.number(sensor, "update_rate", 0);
         spec.parameters = ColorCameraSpec{};
-        visit_parameters(spec.parameters, ParameterReader{camera, scope, import});
-        report_ignored(camera, ColorCameraSpec::kKind.ignored, ColorCameraSpec::kKind.phrase, import);
-        complete_camera(spec.parameters, sensor, camera, import);
+        read_block(spec.parameters, sensor, camera, scope, import);
     }
     return cameras;
 }
 
 SensorSpec convert_sensor(const Element& sensor, const Pose& X_LS, const std::string& scope,
                           const Import& import) {
-    SensorSpec spec;
-    spec.name = sensor.name();
-    spec.sdf_type = type_of(sensor);
-    spec.where = sensor.where();
-    spec.X_LS = X_LS;
-    spec.update_rate_hz = import.reader.number(sensor, "update_rate", 0);
+    SensorSpec spec = head_of(sensor, X_LS, import);
     if (sensor.child("topic")) spec.topic = sensor.text("topic");
     if (sensor.child("contact").child("topic")) spec.topic = sensor.child("contact").text("topic");
     spec.parameters = read_parameters(sensor, spec, scope, import);

@@ -10,6 +10,7 @@ namespace roboss::sdf_import {
 
 using xml::Element;
 using xml::SourceFile;
+using xml::trimmed;
 using xml::words_of;
 
 /// SDFormat versions as major * 100 + minor: 1.6 is 106, 1.12 is 112. 0: unknown.

@@ -25,7 +25,7 @@ double heading_of(const Model& model, const Transform& X_WS, const Mat3& R_WS) {
 
 Result<CompassReading> read(const CompassSpec& compass, const SensorQuery& query) {
     const SensorInfo& info = query.info();
-    const Transform X_WS = link_pose(query.type(), query.state, info.link) * to_transform(info.spec.X_LS);
+    const Transform X_WS = sensor_pose(query);
     const double error = noisy_value(0.0, compass.noise, query, 0, 0);
 
     CompassReading reading;

@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "core/fixed_math.h"
-#include "physics/dynamics/kinematics.h"
 #include "sensors/infinity.h"
 #include "sensors/readings.h"
 
@@ -34,10 +33,10 @@ std::vector<Vec3> cone_about_minus_z(double opening) {
 }
 
 double nearest_in(const std::vector<Vec3>& directions_S, double range_max, const SensorQuery& query) {
-    const SensorInfo& info = query.info();
-    const Transform X_WS = link_pose(query.type(), query.state, info.link) * to_transform(info.spec.X_LS);
+    const Transform X_WS = sensor_pose(query);
     std::vector<double> distances(directions_S.size());
-    query.sources.ray_scene().cast({X_WS, range_max, query.robot, info.link}, directions_S, distances, {});
+    query.sources.ray_scene().cast({X_WS, range_max, query.robot, query.info().link}, directions_S, distances,
+                                   {});
     const double nearest = *std::ranges::min_element(distances);
     return nearest > range_max ? kInfinity : nearest;
 }

@@ -75,8 +75,7 @@ Vec3 transformed(const EnvironmentalSpec& spec, const SensorQuery& query, const 
 }  // namespace
 
 Result<EnvironmentalReading> read(const EnvironmentalSpec& spec, const SensorQuery& query) {
-    const SensorInfo& info = query.info();
-    const Transform X_WS = link_pose(query.type(), query.state, info.link) * to_transform(info.spec.X_LS);
+    const Transform X_WS = sensor_pose(query);
     const std::vector<std::string> columns = spec.columns();
     EnvironmentalReading reading;
     if (spec.points() == 0 || spec.values.size() != columns.size() * spec.points()) return reading;

@@ -1,9 +1,7 @@
 // The force-torque sensor: the reaction of its joint in the tick that begins at the observed states, which
 // the probe steps.
-#include <algorithm>
-
 #include "physics/dynamics/kinematics.h"
-#include "physics/probe.h"
+#include "sensors/joint_reaction.h"
 #include "sensors/readings.h"
 #include "sensors/sensor_noise.h"
 
@@ -23,16 +21,13 @@ Mat3 axes_of(const ForceTorqueSpec& sensor, const SensorQuery& query, const Tran
 }  // namespace
 
 Result<ForceTorqueReading> read(const ForceTorqueSpec& sensor, const SensorQuery& query) {
-    const auto joint = query.type().find_joint(sensor.joint);
     const std::vector<JointReaction> all = query.sources.step_probe().joint_reactions(query.robot);
-    const auto reaction =
-        std::ranges::find_if(all, [&](const JointReaction& r) { return joint && r.joint == *joint; });
-    if (reaction == all.end())
+    const JointReaction* const reaction = find_reaction(all, query.type(), sensor.joint);
+    if (reaction == nullptr)
         return Error{"sensor '" + query.info().spec.name + "' measures the joint '" + sensor.joint +
                          "', which bears nothing",
                      "put it in a joint between two links of one robot"};
-    const Transform X_WL = link_pose(query.type(), query.state, query.info().link);
-    const Transform X_WS = X_WL * to_transform(query.info().spec.X_LS);
+    const Transform X_WS = sensor_pose(query);
     const double sign = sensor.measure_direction == "child_to_parent" ? -1.0 : 1.0;
     Vec3 force = reaction->force * sign, torque = reaction->torque * sign;
     if (sensor.frame == "sensor") torque -= cross(X_WS.p - reaction->origin_W, force);

@@ -1,9 +1,7 @@
 // The effort sensor of joints: the part of the joint's reaction along its axis, in the tick that begins at
 // the observed states, which the probe steps.
-#include <algorithm>
-
 #include "physics/dynamics/kinematics.h"
-#include "physics/probe.h"
+#include "sensors/joint_reaction.h"
 #include "sensors/readings.h"
 #include "sensors/sensor_noise.h"
 #include "world/joint_type.h"
@@ -38,14 +36,12 @@ Result<JointEffortReading> read(const JointEffortSpec& sensor, const SensorQuery
     const Transform X_WBase = to_transform(base_pose(query.state));
     const std::vector<JointReaction> all = query.sources.step_probe().joint_reactions(query.robot);
     for (std::size_t i = 0; i < sensor.joints.size(); ++i) {
-        const auto id = type.find_joint(sensor.joints[i]);
-        const auto reaction =
-            std::ranges::find_if(all, [&](const JointReaction& r) { return id && r.joint == *id; });
-        if (reaction == all.end())
+        const JointReaction* const reaction = find_reaction(all, type, sensor.joints[i]);
+        if (reaction == nullptr)
             return Error{"sensor '" + query.info().spec.name + "' measures the joint '" + sensor.joints[i] +
                              "', which this robot does not have",
                          "put it on a link that the joint moves or carries"};
-        const Joint& joint = type.joints[id->index()];
+        const Joint& joint = type.joints[reaction->joint.index()];
         if (joint.nv != 1)
             return Error{"sensor '" + query.info().spec.name + "' measures the joint '" + sensor.joints[i] +
                              "', which does not have one axis",

@@ -3,7 +3,6 @@
 #include <vector>
 
 #include "core/fixed_math.h"
-#include "physics/dynamics/kinematics.h"
 #include "sensors/infinity.h"
 #include "sensors/laser_beams.h"
 #include "sensors/readings.h"
@@ -39,15 +38,15 @@ std::vector<Vec3> laser_beams(const LaserSpec& laser) {
 }
 
 Result<LaserReading> read(const LaserSpec& spec, const SensorQuery& query) {
-    const SensorInfo& info = query.info();
-    const Transform X_WS = link_pose(query.type(), query.state, info.link) * to_transform(info.spec.X_LS);
+    const Transform X_WS = sensor_pose(query);
     const std::vector<Vec3> beams = laser_beams(spec);
     const RayScene& scene = query.sources.ray_scene();
     LaserReading reading;
     reading.samples = spec.columns(), reading.vertical_samples = spec.rows();
     reading.ranges.resize(beams.size());
     if (scene.has_retro()) reading.intensities.resize(beams.size());
-    scene.cast({X_WS, spec.range_max, query.robot, info.link}, beams, reading.ranges, reading.intensities);
+    scene.cast({X_WS, spec.range_max, query.robot, query.info().link}, beams, reading.ranges,
+               reading.intensities);
 
     const SensorNoise noise(spec.noise, query, 0);
     for (std::size_t i = 0; i < beams.size(); ++i)

@@ -4,7 +4,6 @@
 #include <string>
 
 #include "core/fixed_math.h"
-#include "physics/dynamics/kinematics.h"
 #include "sensors/readings.h"
 
 namespace roboss {
@@ -53,8 +52,7 @@ bool is_model(const Robot& robot, const RobotType& type) {
 }  // namespace
 
 Result<LogicalCameraReading> read(const LogicalCameraSpec& spec, const SensorQuery& query) {
-    const SensorInfo& info = query.info();
-    const Transform X_WS = link_pose(query.type(), query.state, info.link) * to_transform(info.spec.X_LS);
+    const Transform X_WS = sensor_pose(query);
     FrustumImage image{inverse(X_WS), Frustum(spec)};
     for (std::size_t i = 0; i < query.model.robots.size(); ++i) {
         const RobotId id(i);

@@ -2,9 +2,14 @@
 #include <algorithm>
 
 #include "core/float_env.h"
+#include "physics/dynamics/kinematics.h"
 #include "sensors/readings.h"
 
 namespace roboss {
+
+Transform sensor_pose(const SensorQuery& query) {
+    return link_pose(query.type(), query.state, query.info().link) * to_transform(query.info().spec.X_LS);
+}
 
 Result<Sample> measure(const SensorQuery& query) {
     const Model& model = query.model;

@@ -1,8 +1,6 @@
 // See placed_camera.h.
 #include "sensors/placed_camera.h"
 
-#include "physics/dynamics/kinematics.h"
-
 namespace roboss {
 
 Result<const CameraScene*> SensorSources::camera_scene() {
@@ -13,15 +11,16 @@ Result<const CameraScene*> SensorSources::camera_scene() {
         "no-look"};
 }
 
+Transform camera_pose(const CameraOptics& optics, const SensorQuery& query) {
+    return sensor_pose(query) * to_transform(optics.X_SC);
+}
+
 Result<PlacedCamera> place_camera(const CameraOptics& optics, const SensorQuery& query) {
     const Result<const CameraScene*> found = query.sources.camera_scene();
     if (!found) return found.error();
     const CameraScene& scene = *found.value();
-    const SensorInfo& info = query.info();
-    const Transform X_WL = link_pose(query.type(), query.state, info.link);
     return PlacedCamera{scene,
-                        {X_WL * to_transform(info.spec.X_LS) * to_transform(optics.X_SC), optics,
-                         scene.items_of(query.robot, info.link)}};
+                        {camera_pose(optics, query), optics, scene.items_of(query.robot, query.info().link)}};
 }
 
 }  // namespace roboss

@@ -11,6 +11,9 @@ struct PlacedCamera {
     render::CameraView view;
 };
 
+/// The camera's frame in the world.
+Transform camera_pose(const CameraOptics& optics, const SensorQuery& query);
+
 /// The camera where the query has its robot. An Error, "no-look": there are no visuals.
 Result<PlacedCamera> place_camera(const CameraOptics& optics, const SensorQuery& query);
 

@@ -4,8 +4,8 @@
 //     strength = tx_power - l0 - 10 fading_exponent log10(distance) - obstacle_loss shapes + sigma g
 //     received with the probability (1 - erfc(sqrt(strength / noise)))^bytes
 //
-// as in RFComms of gz-sim, whose modulation is QPSK. g: a draw from a normal
-// distribution for each message and receiver.
+// as in RFComms of gz-sim, whose modulation is QPSK. g: a draw from a normal distribution for each message
+// and receiver.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -24,7 +24,8 @@ constexpr double kLightSpeed = 299'792'458;  // m/s
 constexpr double kLeastDistance = 0.01;      // m: nearer antennas lose no less
 constexpr double kFarthest = 1e6;            // m: nothing is heard beyond
 constexpr double kLongestDelay_s = 0.004;    // of that distance
-/// dB below the noise floor: weaker signals neither arrive nor disturb, so nobody looks what is in their way.
+/// dB below the noise floor: weaker signals are neither received nor interfere, so the obstacles in their way
+/// are not counted.
 constexpr double kHopeless = 30;
 
 /// A transmission as it comes in at the receiver.
@@ -47,8 +48,7 @@ struct Signal {
 class Receiver {
   public:
     Receiver(const SensorQuery& query, const RadioSpec& spec) : q_(query), spec_(spec) {
-        const SensorInfo& info = query.info();
-        p_WA_ = (link_pose(query.type(), query.state, info.link) * to_transform(info.spec.X_LS)).p;
+        p_WA_ = sensor_pose(query).p;
     }
 
     std::vector<RadioMessage> messages() {
@@ -131,7 +131,7 @@ class Receiver {
             if (!spec_.is_perfect && s.distance > std::min(spec_.range, kFarthest)) continue;
             const double delay = spec_.is_perfect ? 0 : s.distance / kLightSpeed;
             s.begin_s = t->begin_s + delay, s.end_s = t->end_s + delay;
-            // nobody hears in a tick what is sent in it
+            // a message is received in the tick after it was sent at the earliest
             s.arrived = std::max(radio_arrival(s.end_s + spec_.latency, q_.model.dt_s), t->given + 1);
             signals_.push_back(s);
         }

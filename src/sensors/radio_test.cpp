@@ -104,7 +104,7 @@ TEST(Radio, StrengthFallsWithTheLogarithmOfTheDistance) {
         const auto heard = air.heard(1);
         ASSERT_EQ(heard.size(), 1u) << distance;
         EXPECT_NEAR(heard[0].strength_dBm, 17 - 33 - 27 * std::log10(distance), 1e-9);
-        EXPECT_TRUE(air.heard(0).empty()) << "nobody hears itself";
+        EXPECT_TRUE(air.heard(0).empty()) << "a radio does not receive its own messages";
     }
 }
 

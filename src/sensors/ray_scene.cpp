@@ -11,6 +11,7 @@
 #include "core/thread_pool.h"
 #include "physics/dynamics/kinematics.h"
 #include "sensors/infinity.h"
+#include "sensors/ray_intervals.h"
 #include "sensors/ray_shape.h"
 #include "sensors/ray_tracer.h"
 #include "sensors/ray_tree.h"
@@ -72,18 +73,13 @@ std::size_t fill(RayPacket& packet, const RayScene::Fan& fan, std::span<const Ve
 
 /// Whether a line from `origin`, relative to the tree's centre, passes the box of a node within this length.
 bool passes(const render::BoxNode& node, const Vec3& origin, const Vec3& direction, double length) {
-    double near = 0, far = length;
+    ray_shapes::Interval<double> inside{0, length};
     for (std::size_t k = 0; k < 3; ++k) {
-        const double low = static_cast<double>(node.min[k]) - origin[k],
-                     high = static_cast<double>(node.max[k]) - origin[k];
-        if (direction[k] == 0) {
-            if (low > 0 || high < 0) return false;
-            continue;
-        }
-        const double a = low / direction[k], b = high / direction[k];
-        near = std::fmax(near, std::fmin(a, b)), far = std::fmin(far, std::fmax(a, b));
+        const double low = static_cast<double>(node.min[k]), high = static_cast<double>(node.max[k]);
+        inside = intersection(
+            inside, ray_shapes::slab(origin[k] - 0.5 * (low + high), direction[k], 0.5 * (high - low)));
     }
-    return near <= far;
+    return !inside.empty();
 }
 
 /// Calls visit(item) for those of a tree whose boxes the line may pass.

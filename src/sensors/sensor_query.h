@@ -44,4 +44,7 @@ struct SensorQuery {
     const SensorInfo& info() const { return type().sensors[sensor]; }
 };
 
+/// The sensor's frame in the world.
+Transform sensor_pose(const SensorQuery& query);
+
 }  // namespace roboss

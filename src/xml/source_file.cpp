@@ -70,6 +70,13 @@ std::vector<std::string_view> words_of(std::string_view text) {
     return words;
 }
 
+std::string trimmed(std::string_view text) {
+    const char* const blank = " \t\r\n";
+    const std::size_t first = text.find_first_not_of(blank);
+    return first == text.npos ? std::string()
+                              : std::string(text.substr(first, text.find_last_not_of(blank) - first + 1));
+}
+
 std::unique_ptr<SourceFile> SourceFile::read(const std::string& path, Diagnostics& diagnostics) {
     std::error_code ignored;
     std::ifstream stream(path, std::ios::binary);

@@ -18,6 +18,8 @@ inline std::vector<std::string_view> words_of(const char* text) {
     return words_of(std::string_view(text));
 }
 std::vector<std::string_view> words_of(std::string&& text) = delete;  // the words would outlive it
+/// Without white space at its ends.
+std::string trimmed(std::string_view text);
 
 class SourceFile {
   public:

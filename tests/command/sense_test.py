@@ -36,6 +36,24 @@ class Sense(RobossTest):
         self.assertEqual(data[:6], b"\x93NUMPY")
         self.assertIn(b"'shape': (5760, )", data)
 
+    def test_a_picture_is_red_where_the_camera_puts_blue_first_too(self):
+        text = WORLD.read_text()
+        self.assertIn("<height>240</height></image>", text)
+        blue_first = FOLDER / "blue_first.sdf"
+        blue_first.write_text(text.replace("<height>240</height></image>",
+                                           "<height>240</height><format>B8G8R8</format></image>"))
+        def picture(world, name):
+            file = FOLDER / name
+            done = roboss("sense", world, "--path", WORLDS / "models", "--robot", "rover", "--sensor", "eye",
+                          "--at", 1, "-o", file)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            return file
+        self.assertEqual(read_png(picture(blue_first, "blue.png")), read_png(picture(WORLD, "red.png")))
+        blue, red = (picture(world, name).read_bytes()
+                     for world, name in ((blue_first, "blue.npy"), (WORLD, "red.npy")))
+        self.assertNotEqual(blue, red)
+        self.assertEqual(blue[-3:], red[:-4:-1])
+
     def test_a_depth_image_counts_the_millimetres_of_its_points(self):
         rows = read_png(sensed("depth", "depth.png"))
         header, points = sensed("depth", "depth.pcd").read_bytes().split(b"DATA binary\n")

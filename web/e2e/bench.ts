@@ -46,6 +46,8 @@ export interface RunOptions {
     world?: string;
     /** Arguments of the program for something else than a run; it may write files into the folder. */
     program?: (folder: string, world: string) => string[];
+    /** More arguments of the program. */
+    more?: string[];
     /** All in one process. */
     single?: boolean;
     /** A Controller and two Simulators in processes of their own, which others may join. */
@@ -76,7 +78,18 @@ function programArguments(options: RunOptions, folder: string, network: string[]
             ? ["controller", world, "--simulators", "2", ...network]
             : ["run", world, ...(options.single ? [] : ["--processes", "3"])],
         journal = join(folder, "run.journal");
-    return [...kind, "--journal", journal, "--speed", "1", "--view", `${options.port ?? 8190}`, "--web", WEB];
+    return [
+        ...kind,
+        ...(options.more ?? []),
+        "--journal",
+        journal,
+        "--speed",
+        "1",
+        "--view",
+        `${options.port ?? 8190}`,
+        "--web",
+        WEB,
+    ];
 }
 
 let clusters = 0;

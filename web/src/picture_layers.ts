@@ -6,6 +6,7 @@ import { FlowMarks } from "./overlays/flow_marks";
 import type { LabelLayer } from "./overlays/labels";
 import { Names } from "./overlays/names";
 import { PointClouds } from "./overlays/point_clouds";
+import { RadioMarks } from "./overlays/radio_marks";
 import { RobotOverlays } from "./overlays/robot_overlays";
 import { RunOverlays } from "./overlays/run_overlays";
 import { SelectionMark } from "./overlays/selection_mark";
@@ -35,6 +36,7 @@ export function pictureLayers({ stage, state, labels, colouring, scene }: Parts)
         tracks = new Tracks(stage, state, labels),
         flows = new FlowMarks(stage, state),
         bonds = new BondMarks(stage, state),
+        radio = new RadioMarks(stage, state),
         far = new FarMarks(stage, state, (world, robot, out) => colouring.colourOf(world, robot, out));
     /** What is known of the present alone is not drawn into an earlier moment. */
     const present = (world: World | null) => (state.shown.value === null ? world : null);
@@ -45,6 +47,7 @@ export function pictureLayers({ stage, state, labels, colouring, scene }: Parts)
         ...scene.marks,
         (world) => flows.update(present(world)),
         (world) => bonds.update(present(world)),
+        (world, now) => radio.update(present(world), now),
         (world) => sensors.update(present(world)),
         (world) => clouds.update(present(world)),
         (world, now) => told.update(present(world), now),

@@ -76,7 +76,7 @@ export function readPictureHeader(view: DataView): PictureHeader {
     };
 }
 
-export type Overlay = 'contacts' | 'bounds' | 'groups';
+export type Overlay = 'contacts' | 'radio' | 'bounds' | 'groups';
 
 export type OrderAction = 'pose' | 'velocity' | 'wrench' | 'joint' | 'command' | 'attach' | 'detach';
 

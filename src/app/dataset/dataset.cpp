@@ -12,6 +12,8 @@
 #include "core/hash.h"
 #include "core/similar.h"
 #include "render/lens.h"
+#include "sensors/channel_order.h"
+#include "sensors/placed_camera.h"
 
 namespace roboss {
 namespace {
@@ -29,7 +31,7 @@ bool is_color_camera(const SensorSpec& sensor) {
     return sensor.as<ColorCameraSpec>() != nullptr || sensor.as<RgbdCameraSpec>() != nullptr;
 }
 
-/// What is recorded if nobody says what: what sees.
+/// Recorded by default: cameras and lidars.
 bool sees(const SensorSpec& sensor) {
     return optics_of(sensor) != nullptr || sensor.as<LaserSpec>() != nullptr;
 }
@@ -87,7 +89,7 @@ Result<> Dataset::find_sensors() {
     });
     if (sensors_.empty())
         return Error{"the world has no cameras and no lidars",
-                     "add a <sensor>, or name other sensors with --sensor ROBOT/SENSOR", "no-sensor"};
+                     "add a <sensor>, or name other sensors with --sensors ROBOT/SENSOR", "no-sensor"};
     if (options_.format == "kitti" && !has_color)
         return Error{"the format kitti needs a colour camera, and none is recorded",
                      "add a <sensor type=\"camera\">, or use --format files", "no-sensor"};
@@ -139,8 +141,9 @@ Result<> Dataset::write(std::span<const RobotState> states, Tick tick) {
 Result<> Dataset::write_sensor(Sensor& sensor, Tick tick) {
     const SensorSpec& spec = spec_of(sensor);
     if (sensor.in_kitti && spec.as<LaserSpec>() != nullptr) return Ok{};  // with the camera
-    const Result<Sample> sample = states_.read(sensor.robot, sensor.index, run_.seed);
+    Result<Sample> sample = states_.read(sensor.robot, sensor.index, run_.seed);
     if (!sample) return sample.error();
+    put_red_first(spec, sample.value());
     const Image<std::uint8_t>* const color = color_of(sample.value());
     if (sensor.in_kitti) return write_kitti(sensor, *color);
     if (Result<> written = sensor.files.write(frames_, time_of(tick), sample.value()); !written)
@@ -159,7 +162,7 @@ Result<> Dataset::write_kitti(const Sensor& camera, const Image<std::uint8_t>& c
     KittiSample kitti;
     kitti.color = &color;
     kitti.optics = optics_of(spec_of(camera));
-    kitti.X_WC = camera_frame(states_, *kitti.optics, camera.robot, camera.index);
+    kitti.X_WC = camera_pose(*kitti.optics, states_.query(camera.robot, camera.index, 0));
     kitti.X_WB = to_transform(base_pose(states_.state_of(camera.robot)));
     Result<std::vector<SeenThing>> things = seen_things(states_, *kitti.optics, camera.robot, camera.index);
     if (!things) return things.error();
@@ -172,7 +175,7 @@ Result<> Dataset::write_kitti(const Sensor& camera, const Image<std::uint8_t>& c
         if (!read) return read.error();
         scan = std::move(read).value();
         kitti.scan = KittiScan{spec, std::get_if<LaserReading>(&scan),
-                               sensor_frame(states_, lidar.robot, lidar.index)};
+                               sensor_pose(states_.query(lidar.robot, lidar.index, 0))};
     }
     return kitti_->write(kitti);
 }
@@ -183,8 +186,8 @@ void Dataset::write_poses() {
                                    pose_cells(base_pose(states_.state_of(RobotId(r)))));
     for (const Sensor& sensor : sensors_) {
         const CameraOptics* const optics = optics_of(spec_of(sensor));
-        const Transform X = optics != nullptr ? camera_frame(states_, *optics, sensor.robot, sensor.index)
-                                              : sensor_frame(states_, sensor.robot, sensor.index);
+        const SensorQuery query = states_.query(sensor.robot, sensor.index, 0);
+        const Transform X = optics != nullptr ? camera_pose(*optics, query) : sensor_pose(query);
         sensors_csv_ << fmt::format("{},{},{}\n", frames_, sensor.name, pose_cells({X.p, to_quat(X.R)}));
     }
 }

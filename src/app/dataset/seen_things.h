@@ -34,9 +34,4 @@ double truncation(const SeenThing& thing, const CameraOptics& optics);
 /// The optics of a camera of any kind; nullptr: it is none.
 const CameraOptics* optics_of(const SensorSpec& sensor);
 
-/// The frame of a sensor in the world.
-Transform sensor_frame(SensedStates& states, RobotId robot, std::size_t sensor);
-/// That of a camera.
-Transform camera_frame(SensedStates& states, const CameraOptics& optics, RobotId robot, std::size_t sensor);
-
 }  // namespace roboss

@@ -9,6 +9,7 @@
 
 #include "app/output/array_file.h"
 #include "render/lens.h"
+#include "sensors/channel_order.h"
 #include "sensors/laser_beams.h"
 
 namespace roboss {
@@ -154,7 +155,8 @@ std::string pcd(const Image<float>& depth, const Image<std::uint8_t>* color, con
 }
 }  // namespace
 
-Result<> write_reading(const std::string& file, const Sample& sample, const SensorSpec& sensor) {
+Result<> write_reading(const std::string& file, Sample sample, const SensorSpec& sensor) {
+    if (!file.ends_with(".npy")) put_red_first(sensor, sample);  // arrays keep the format of the camera
     if (file.ends_with(".png")) {
         Result<> done = Ok{};
         bool found = false;

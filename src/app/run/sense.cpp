@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <memory>
+#include <utility>
 
 #include "app/commands/numbers.h"
 #include "app/output/reading_file.h"
@@ -73,12 +74,12 @@ Result<> take_reading(const SenseOptions& options, const SensedRun& run) {
     const RobotId robot = found.value().first;
     SensedStates sources(run.model, run.visuals, run.threads);
     sources.update(run.states, run.tick);
-    const Result<Sample> sample = sources.read(robot, found.value().second, run.seed);
+    Result<Sample> sample = sources.read(robot, found.value().second, run.seed);
     if (!sample) return sample.error();
     for (const std::string& problem : sources.problems())
         fmt::print(stderr, "note: a picture is not shown: {}\n", problem);
     const SensorSpec& spec = run.model->type_of(robot).sensors[found.value().second].spec;
-    const Result<> written = write_reading(options.file, sample.value(), spec);
+    const Result<> written = write_reading(options.file, std::move(sample).value(), spec);
     if (written) fmt::print(stderr, "wrote {}\n", options.file);
     return written;
 }

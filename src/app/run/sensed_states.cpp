@@ -36,9 +36,9 @@ StepProbe& SensedStates::step_probe() {
 
 Result<const CameraScene*> SensedStates::camera_scene() {
     if (!cameras_) {
-        Result<std::shared_ptr<const render::VisualWorld>> visuals = visuals_(*model_);
-        if (!visuals) return visuals.error();
-        cameras_ = std::make_unique<CameraScene>(model_, std::move(visuals).value(), threads_);
+        auto made = make_camera_scene(visuals_, model_, threads_);
+        if (!made) return made.error();
+        cameras_ = std::move(made).value();
     }
     if (std::exchange(cameras_due_, false)) cameras_->update(states_);
     return cameras_.get();

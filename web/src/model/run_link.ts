@@ -209,7 +209,7 @@ export class RunLink {
         const overlays: string[] = [],
             on = this.state.overlays.value,
             colour = this.state.colourBy.value;
-        for (const name of ["contacts", "bounds"] as const) if (on.has(name)) overlays.push(name);
+        for (const name of ["contacts", "radio", "bounds"] as const) if (on.has(name)) overlays.push(name);
         if (on.has("islands") || colour === "island" || colour === "simulator") overlays.push("groups");
         if (this.state.wantsProfile.value) overlays.push("profile");
         const robots = new Set<number>(this.state.pinned.value);

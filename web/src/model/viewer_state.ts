@@ -43,6 +43,7 @@ export const OVERLAYS = [
     "tracks",
     "compass",
     "contacts",
+    "radio",
     "bounds",
     "spheres",
     "islands",

@@ -2,7 +2,7 @@
 // ground round robots that may touch.
 import * as THREE from "three";
 import type { ViewerState, World } from "../model/viewer_state";
-import type { OverlayReport } from "../wire/messages";
+import type { ContactReport, OverlayReport } from "../wire/messages";
 import { groupColour } from "../view/palette";
 import type { Stage } from "../view/stage";
 import { ArrowField } from "./arrow_field";
@@ -64,15 +64,20 @@ export class RunOverlays {
     }
 
     private take(report: OverlayReport): void {
+        if (report.contacts !== undefined) this.drawContacts(report.contacts);
+        if (report.bounds === undefined) return;
+        this.boxes.begin();
+        for (const { box } of report.bounds) this.drawBox(box.flat());
+        this.boxes.end();
+    }
+
+    private drawContacts(contacts: readonly ContactReport[]): void {
         this.arrows.begin();
-        for (const contact of report.contacts ?? []) {
+        for (const contact of contacts) {
             const way = new THREE.Vector3(...contact.force).multiplyScalar(METRES_A_NEWTON);
             this.arrows.add(new THREE.Vector3(...contact.point), way.clampLength(0, ARROW_MAX_M), FORCE);
         }
         this.arrows.end();
-        this.boxes.begin();
-        for (const { box } of report.bounds ?? []) this.drawBox(box.flat());
-        this.boxes.end();
     }
 
     private drawBox(box: readonly number[]): void {

@@ -16,6 +16,7 @@ export const WORDS: Record<Overlay, [string, string]> = {
     tracks: ["Tracks", "where robots drove; the selected one: GPS, odometer"],
     compass: ["Compass", "north and heading of the selected robot"],
     contacts: ["Contact forces", "arrows, 1 m for 100 N"],
+    radio: ["Radio links", "messages received: green 30 dB above the noise floor, red at it; rings: sent"],
     bounds: ["Swept boxes", "what the forecast keeps free"],
     spheres: ["Bounding spheres", "the reach of each robot"],
     islands: ["Islands", "hulls round robots that may touch"],
