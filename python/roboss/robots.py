@@ -167,6 +167,33 @@ class Robots:
         self._core.set_joint_velocities(self._fill("joint_velocity", values, len(self._facts.axes)))
 
     @property
+    def joint_effort(self) -> Floats:
+        """What the motors of the joints gave, mean over the last tick, (N, joints): N m or N. Zero at the start, and
+        where a motor is off; joint friction, springs and limits are not in it.
+
+        >>> arm = roboss.Simulation(roboss.example("arm.sdf")).robots("arm")
+        >>> arm.joint_position = [0, 1.57, 0, 0, 0, 0]                  # stretched out
+        >>> arm.set_joint_targets([0, 1.57, 0, 0, 0, 0], mode="position")
+        >>> arm.simulation.step(200)
+        >>> bool(arm.joint_effort[0, 1] < -50)                          # N m, holds itself at the shoulder
+        True
+        """
+        return self._read(self._core.joint_efforts, len(self._facts.axes))
+
+    @property
+    def energy(self) -> Floats:
+        """Kinetic and potential energy of the robots, (N, 2): J. The potential energy is that of the links in the
+        world's gravity, zero at the world's origin. Rotor inertias and springs are not in it.
+
+        >>> sim = roboss.Simulation(roboss.example("crossroads.sdf"))
+        >>> sim.robots("car_2").twist = [2, 0, 0, 0, 0, 0]
+        >>> kinetic, potential = sim.robots("car_2").energy[0]
+        >>> float(round(kinetic, 2))                                    # m v^2 / 2, of 6.2 kg
+        12.4
+        """
+        return self._read(self._core.energies, 2)
+
+    @property
     def qpos(self) -> Floats:
         """Coordinates of the robots in MuJoCo's order, (N, nq): of a free base x y z (m) and quaternion w x y z, then
         those of the joints, of a ball joint a quaternion w x y z. MujocoOrder has the order, and converts other arrays.

@@ -90,6 +90,7 @@ class TypeFacts:
     links: list[str]
     axes: list[str]
     limits: list[list[float]]
+    units: list[str]  # of the position of each axis: "rad" or "m"
     coordinates: list[str]  # of each axis: "axis", "ball" or "loop"
     sensors: list[tuple[str, str, float]]
     commands: list[tuple[str, tuple[tuple[str, str], ...], bool]]

@@ -74,6 +74,12 @@ LiveArray::Array live(Robots& robots, bool is_single) {
     return LiveArray::array(array, is_single);
 }
 
+template <void (RobotSet::*Read)(const RunAccess&, std::span<double>) const>
+void fill(Robots& robots, const Out& out) {
+    robots.for_each(numbers(out),
+                    [&](RunAccess& run, std::span<double> part) { (robots.set().*Read)(run, part); });
+}
+
 template <void (RobotSet::*Read)(const RunAccess&, LinkId, std::span<double>) const>
 void fill_link(Robots& robots, std::uint32_t link, const Out& out) {
     robots.for_each(numbers(out), [&](RunAccess& run, std::span<double> part) {
@@ -118,6 +124,8 @@ void bind_robots(nb::module_& module) {
         .def("joint_velocity", &live<Property::kJointVelocity>, nb::arg("single"))
         .def("link_poses", &fill_link<&RobotSet::link_poses>, nb::arg("link"), nb::arg("out"))
         .def("link_twists", &fill_link<&RobotSet::link_twists>, nb::arg("link"), nb::arg("out"))
+        .def("joint_efforts", &fill<&RobotSet::joint_efforts>, nb::arg("out"))
+        .def("energies", &fill<&RobotSet::energies>, nb::arg("out"))
         .def("touching", &touching, nb::arg("out"))
         .def("set_poses", &set<&RobotSet::set_poses>, nb::arg("poses"))
         .def("set_twists", &set<&RobotSet::set_twists>, nb::arg("twists"))

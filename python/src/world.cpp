@@ -106,6 +106,17 @@ std::vector<std::string> coordinates_of(const RobotType& type, const std::vector
     return coordinates;
 }
 
+/// "rad" or "m", of the position of each column of the arrays of joints.
+std::vector<std::string> units_of(const RobotType& type, const std::vector<JointAxis>& axes) {
+    std::vector<std::string> units;
+    for (const JointAxis& axis : axes) {
+        const std::span<const JointKind> motions = joint_type(type.joints[axis.joint.index()].kind).motions;
+        const std::size_t motion = std::min(static_cast<std::size_t>(axis.axis), motions.size() - 1);
+        units.push_back(motions[motion] == JointKind::kPrismatic ? "m" : "rad");
+    }
+    return units;
+}
+
 nb::list sensors_of(const RobotType& type) {
     nb::list sensors;
     for (const SensorInfo& sensor : type.sensors)
@@ -140,6 +151,7 @@ nb::dict facts_of(const std::shared_ptr<const Model>& model, std::size_t robot) 
     facts["links"] = names_of(type.links);
     facts["axes"] = names_of(one.axes());
     facts["limits"] = limits_of(type, one.axes());
+    facts["units"] = units_of(type, one.axes());
     facts["coordinates"] = coordinates_of(type, one.axes());
     facts["sensors"] = sensors_of(type);
     facts["commands"] = commands_of(type);

@@ -7,12 +7,14 @@ import numpy as np
 import pytest
 
 import roboss
+import roboss.analysis
 from conftest import REPOSITORY
 from roboss import batch, builder, camera, envs, kinematics, robots, run, sensors, simulation, trajectories, view, world
+from roboss.analysis import recorder, recording
 from roboss.envs import city, city_driver, parallel, single, soccer
 
 MODULES = [roboss, batch, builder, camera, world, run, simulation, robots, sensors, kinematics, trajectories, view]
-MODULES += [envs, city, city_driver, parallel, single, soccer]
+MODULES += [roboss.analysis, recorder, recording, envs, city, city_driver, parallel, single, soccer]
 
 BLOCK = re.compile(r"^```python\n(.*?)^```", re.DOTALL | re.MULTILINE)
 
@@ -23,7 +25,7 @@ def test_examples_in_docstrings(module):
     assert result.attempted > 0 and result.failed == 0
 
 
-@pytest.mark.parametrize("module", [roboss, envs], ids=lambda module: module.__name__)
+@pytest.mark.parametrize("module", [roboss, envs, roboss.analysis], ids=lambda module: module.__name__)
 def test_everything_public_has_a_docstring(module):
     for name in module.__all__:
         thing = getattr(module, name)

@@ -12,6 +12,7 @@
 #include "app/commands/diff_command.h"
 #include "app/commands/journal_command.h"
 #include "app/commands/new_client_command.h"
+#include "app/commands/python_command.h"
 #include "app/commands/run_command.h"
 #include "app/commands/runs_command.h"
 #include "app/commands/save_command.h"
@@ -29,6 +30,7 @@ void group_commands(CLI::App& app) {
     const std::pair<const char*, std::vector<const char*>> groups[] = {
         {"Simulate a world", {"run", "check", "snapshot", "sense", "dataset", "new-client"}},
         {"Control and keep a run", {"control", "runs", "save", "replay", "journal", "diff"}},
+        {"Look into a run", {"record", "plot", "analyse"}},
         {"Members of a run on several computers", {"controller", "simulator", "client", "view", "cluster"}}};
     for (const auto& [group, commands] : groups)
         for (const char* command : commands) app.get_subcommand(command)->group(group);
@@ -64,6 +66,7 @@ int main(int argc, char** argv) {
     roboss::add_client_command(app, exit_code);
     roboss::add_view_command(app, exit_code);
     roboss::add_cluster_command(app, exit_code);
+    roboss::add_python_commands(app, exit_code);
     group_commands(app);
     if (const std::optional<int> ended = roboss::read_command_line(app, argc, argv)) return *ended;
     return exit_code;

@@ -308,6 +308,30 @@ TEST(RobotSet, GivesPosesAndTwistsOfLinks) {
     EXPECT_NEAR(twists[2], 3, 1e-12);
 }
 
+TEST(RobotSet, GivesTheEnergyOfAFallAndTheEffortsOfMotors) {
+    const auto model = crowd(2);
+    const auto run = run_of(model);
+    const RobotSet cars = all_of(model);
+    std::vector<double> poses(14), before(4), after(4), efforts(8);
+    cars.poses(*run, poses);
+    poses[2] += 5, poses[9] += 5;
+    ASSERT_TRUE(cars.set_poses(*run, poses).ok());
+    ASSERT_TRUE(cars.set_twists(*run, std::vector<double>{0, -1, 1, 0.5, 0, 2, 0, 0, 0, 0, 0, 0}).ok());
+    cars.energies(*run, before);
+    ASSERT_TRUE(run->step(200).ok());
+    cars.energies(*run, after);
+    EXPECT_GT(after[0], before[0] + 1);  // it falls
+    EXPECT_NEAR(after[0] + after[1], before[0] + before[1], 1e-6 * before[1]);
+    EXPECT_EQ(before[2], 0);  // the other one was at rest
+    const std::vector<std::size_t> wheel{1};
+    ASSERT_TRUE(cars.set_joints(*run, wheel, MotorMode::kEffort, std::vector<double>{0.02, -0.01}).ok());
+    ASSERT_TRUE(run->step(1).ok());
+    cars.joint_efforts(*run, efforts);
+    EXPECT_NEAR(efforts[1], 0.02, 1e-12);
+    EXPECT_NEAR(efforts[5], -0.01, 1e-12);
+    EXPECT_EQ(efforts[0], 0);
+}
+
 TEST(RobotSet, TellsWhoTouchesMoreThanTheGround) {
     const auto model = crowd(3);
     const auto run = run_of(model);

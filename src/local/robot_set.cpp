@@ -22,6 +22,27 @@ void read_joints(const RobotSet& set, const RunAccess& run, double JointState::*
             *to++ = joint_state(*set.type(), run.state(robot), axis.joint, axis.axis).*value;
 }
 
+/// What a motor gave in the last tick, N m or N. Impulses are not kept of robots that no row acts on; only
+/// motors that give an effort may drive these.
+double effort_of(const MotorSetpoint& motor, double dt_s) {
+    if (motor.mode == MotorMode::kEffort)
+        return std::clamp(motor.target, -motor.max_effort, motor.max_effort);
+    return motor.impulse / dt_s;
+}
+
+/// Adds the link's kinetic and potential energy, J.
+void add_energy(const Model& model, const RobotType& type, const RobotState& state, LinkId id,
+                double* energy) {
+    const Link& link = type.links[id.index()];
+    const Transform X_WL = link_pose(type, state, id);
+    const Twist twist = link_twist(type, state, id);
+    const Mat3 R_WB = X_WL.R * transpose(link.X_BL.R);
+    const Vec3 p_LC_W = R_WB * (link.p_BC - link.X_BL.p);
+    const Vec3 v_C = twist.linear + cross(twist.angular, p_LC_W), w_B = transpose(R_WB) * twist.angular;
+    energy[0] += 0.5 * (link.mass * norm_squared(v_C) + dot(w_B, link.inertia_C * w_B));
+    if (link.gravity) energy[1] -= link.mass * dot(model.gravity, X_WL.p + p_LC_W);
+}
+
 /// Whether this is scenery that carries robot A: the normal is within 45 degrees of the vertical.
 bool carries(const ContactReport& contact, const Vec3& gravity) {
     return !contact.robot_b.valid() && dot(contact.normal, gravity) < -std::sqrt(0.5) * norm(gravity);
@@ -81,6 +102,26 @@ void RobotSet::joint_positions(const RunAccess& run, std::span<double> out) cons
 
 void RobotSet::joint_velocities(const RunAccess& run, std::span<double> out) const {
     read_joints(*this, run, &JointState::velocity, out);
+}
+
+void RobotSet::joint_efforts(const RunAccess& run, std::span<double> out) const {
+    ROBOSS_CHECK(out.size() == size() * axes_.size(), std::to_string(out.size()) + " numbers");
+    double* to = out.data();
+    for (const RobotId robot : robots_)
+        for (const JointAxis& axis : axes_) {
+            const std::size_t motor = type_->motor_index(type_->joints[axis.joint.index()], axis.axis);
+            *to++ = effort_of(run.state(robot).motors[motor], model_->dt_s);
+        }
+}
+
+void RobotSet::energies(const RunAccess& run, std::span<double> out) const {
+    for (std::size_t i = 0; i < size(); ++i) {
+        const RobotType& type = model_->type_of(robots_[i]);
+        double* energy = row(out, i, kEnergyColumns);
+        energy[0] = energy[1] = 0;
+        for (std::size_t l = 0; l < type.links.size(); ++l)
+            add_energy(*model_, type, run.state(robots_[i]), LinkId(l), energy);
+    }
 }
 
 void RobotSet::touching(RunAccess& run, std::span<bool> out) const {

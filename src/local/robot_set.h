@@ -17,7 +17,8 @@ namespace roboss {
 class RobotSet {
   public:
     static constexpr std::size_t kPoseColumns = 7,  ///< x y z, quaternion x y z w
-        kTwistColumns = 6;                          ///< linear x y z, angular x y z
+        kTwistColumns = 6,                          ///< linear x y z, angular x y z
+        kEnergyColumns = 2;                         ///< kinetic, potential
 
     /// `robots` must exist in the model.
     RobotSet(std::shared_ptr<const Model> model, std::vector<RobotId> robots);
@@ -44,6 +45,11 @@ class RobotSet {
     void joint_positions(const RunAccess& run, std::span<double> out) const;
     /// Velocities of the joints, size() x axes(): rad/s or m/s.
     void joint_velocities(const RunAccess& run, std::span<double> out) const;
+    /// What the motors of the joints gave, mean over the last tick, size() x axes(): N m or N.
+    void joint_efforts(const RunAccess& run, std::span<double> out) const;
+    /// Kinetic energy of the links, and their potential energy in the world's gravity (zero at the world's
+    /// origin), size() x kEnergyColumns: J. Rotor inertias and springs are not in it.
+    void energies(const RunAccess& run, std::span<double> out) const;
     /// Whether each robot presses against another robot, or against scenery that does not carry it (the
     /// contact's normal is more than 45 degrees off the vertical), size(): contacts of RunAccess::contacts().
     void touching(RunAccess& run, std::span<bool> out) const;

@@ -1,0 +1,16 @@
+"""Analysis: recordings of runs, pictures and reports of them. `roboss record`, `plot` and `analyse` are its commands.
+
+    >>> from roboss import analysis
+    >>> recording = analysis.record(roboss.example("crossroads.sdf"), ["car_3.pose", "car_3.speed"], until=0.2)
+    >>> recording["car_3.pose"].shape
+    (21, 7)
+
+Formulas are functions of arrays, without a simulation: `iso9283` (arms), `vehicle`, `walker`. docs/analysis.md lists
+them with their sources. Files need the extra `analysis` of the package (pyarrow, mcap, matplotlib).
+"""
+from .arm import Condition, analyse_arm
+from .recorder import record
+from .recording import Column, Recording, read, write
+from .variables import Variables
+
+__all__ = ["Column", "Condition", "Recording", "Variables", "analyse_arm", "read", "record", "write"]

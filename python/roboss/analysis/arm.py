@@ -1,0 +1,183 @@
+"""Analysis of an arm's recording by ISO 9283: commanded and attained poses over time, as figures for each condition.
+
+The recording needs no marks. Where the commanded pose rests, the arm is at a test pose; between two rests it is on a
+path. Equal poses and paths are taken together.
+"""
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import Optional
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..errors import ArgumentError
+from . import iso9283
+
+Floats = NDArray[np.float64]
+_PLACES = 6  # decimals, m, to which commanded poses are the same
+_PATH_POINTS = 50
+_REST_SHARE = 0.2  # end of a rest over which the attained pose is averaged
+
+
+@dataclass(frozen=True)
+class PoseResult:
+    """Figures of one test pose.
+
+    Attributes:
+        name: "P1" ..., in the order in which they first come.
+        commanded: (7,).
+        attained: (n, 7): at the end of each rest.
+        score: AP and RP.
+        settling_time: largest stabilisation time, s.
+        overshoot: largest, m.
+    """
+
+    name: str
+    commanded: Floats
+    attained: Floats
+    score: iso9283.PoseScore
+    settling_time: float
+    overshoot: float
+
+
+@dataclass(frozen=True)
+class PathResult:
+    """Figures of one path: from pose to pose, runs, AT and RT in m, and the largest speed, m/s."""
+
+    name: str
+    runs: int
+    accuracy: float
+    repeatability: float
+    speed: float
+
+
+@dataclass(frozen=True)
+class Condition:
+    """Figures for one load and speed.
+
+    Attributes:
+        name: "load 2 kg, speed 100 %", or "" if the recording has one condition.
+        poses, paths: figures of each.
+        distances: (name, AD, RD) of pairs of poses, m.
+        arrivals: (time, distances from the end) of the first arrival at each pose, for pictures: s, m.
+    """
+
+    name: str
+    poses: list[PoseResult]
+    paths: list[PathResult]
+    distances: list[tuple[str, float, float]]
+    arrivals: dict[str, tuple[Floats, Floats]] = field(default_factory=dict)
+
+
+@dataclass(frozen=True)
+class _Rest:
+    begin: int
+    end: int
+    pose: int  # number of the test pose
+
+
+def analyse_arm(time: Floats, measured: Floats, commanded: Floats, *, name: str = "", band: Optional[float] = None,
+                least_rest: float = 0.1) -> Condition:
+    """Figures of one recording.
+
+    Args:
+        time: (T,), s.
+        measured, commanded: (T, 7): x y z in m, quaternion x y z w, in the same frame.
+        name: of the condition.
+        band: limit band of stabilisation and overshoot, m; None: the repeatability at the pose, at least 0.1 mm.
+        least_rest: shortest rest of the commanded pose that makes it a test pose, s.
+
+    Raises:
+        ArgumentError: no pose is visited twice (code "too-few-cycles").
+    """
+    rests, targets = _rests(time, commanded, least_rest)
+    visits = [[rest for rest in rests if rest.pose == number] for number in range(len(targets))]
+    poses, arrivals = [], {}
+    for number, some in enumerate(visits):
+        if len(some) < 2:
+            continue
+        attained = np.array([_attained(measured, rest) for rest in some])
+        score = iso9283.pose_score(attained, targets[number])
+        limit = max(1e-4, score.repeatability) if band is None else band
+        settled = [iso9283.settling(time[r.begin:r.end], measured[r.begin:r.end, :3], pose[:3], limit)
+                   for r, pose in zip(some, attained)]
+        poses.append(PoseResult(f"P{number + 1}", targets[number], attained, score, max(s for s, _ in settled),
+                                max(o for _, o in settled)))
+        rest = some[-1]
+        arrivals[poses[-1].name] = (time[rest.begin:rest.end] - time[rest.begin],
+                                    np.linalg.norm(measured[rest.begin:rest.end, :3] - attained[-1, :3], axis=1))
+    if not poses:
+        raise ArgumentError(f"{len(rests)} rests of the commanded pose, and no pose is visited twice",
+                            f"record several cycles that rest for {least_rest} s or more at each pose", "too-few-cycles")
+    return Condition(name, poses, _paths(time, measured, commanded, rests), _distances(poses), arrivals)
+
+
+def _rests(time: Floats, commanded: Floats, least: float) -> tuple[list[_Rest], list[Floats]]:
+    """Where the commanded pose rests, and the different poses."""
+    moves = np.any(np.abs(np.diff(commanded, axis=0)) > 1e-12, axis=1)
+    edges = np.flatnonzero(np.diff(np.concatenate([[True], moves, [True]]).astype(int)))
+    rests, targets, numbers = [], [], {}
+    for begin, end in zip(edges[::2], edges[1::2]):
+        if time[end] - time[begin] < least:
+            continue
+        key = tuple(np.round(commanded[begin], _PLACES) + 0.0)
+        if key not in numbers:
+            numbers[key] = len(targets)
+            targets.append(commanded[begin])
+        rests.append(_Rest(int(begin), int(end) + 1, numbers[key]))
+    return rests, targets
+
+
+def _attained(measured: Floats, rest: _Rest) -> Floats:
+    """The mean pose at the end of a rest."""
+    last = measured[rest.end - max(1, int(_REST_SHARE * (rest.end - rest.begin))):rest.end]
+    turns = np.where((last[:, 3:] @ last[-1, 3:])[:, None] < 0, -last[:, 3:], last[:, 3:])
+    turn = turns.mean(axis=0)
+    return np.concatenate([last[:, :3].mean(axis=0), turn / np.linalg.norm(turn)])
+
+
+def _paths(time: Floats, measured: Floats, commanded: Floats, rests: list[_Rest]) -> list[PathResult]:
+    """Figures of the straight paths between poses that are run twice or more."""
+    runs: dict[tuple[int, int], list[slice]] = {}
+    for before, after in zip(rests[:-1], rests[1:]):
+        if before.pose != after.pose:
+            runs.setdefault((before.pose, after.pose), []).append(slice(before.end - 1, after.begin + 1))
+    results = []
+    for (first, second), some in runs.items():
+        if len(some) < 2:
+            continue
+        points = _along(commanded[some[0], :3])
+        crossings = np.array([iso9283.path_crossings(measured[part.start:_later(part, rests), :3], points) for part in some])
+        if np.isnan(crossings[:, :, 0]).any(axis=0).all():
+            continue
+        accuracy, repeatability = iso9283.path_score(crossings, points)
+        speed = np.linalg.norm(np.gradient(measured[some[0], :3], time[some[0]], axis=0), axis=1).max()
+        results.append(PathResult(f"P{first + 1} to P{second + 1}", len(some), accuracy, repeatability, float(speed)))
+    return results
+
+
+def _later(part: slice, rests: list[_Rest]) -> int:
+    """End of the rest that follows a path: the arm arrives after its command does."""
+    return next(rest.end for rest in rests if rest.begin >= part.stop - 1)
+
+
+def _along(path: Floats) -> Floats:
+    """Points at equal distances along a commanded path, without its ends, (_PATH_POINTS, 3)."""
+    length = np.concatenate([[0], np.cumsum(np.linalg.norm(np.diff(path, axis=0), axis=1))])
+    keep = np.concatenate([[True], np.diff(length) > 0])
+    at = np.linspace(0.05, 0.95, _PATH_POINTS) * length[-1]
+    return np.column_stack([np.interp(at, length[keep], path[keep, axis]) for axis in range(3)])
+
+
+def _distances(poses: list[PoseResult]) -> list[tuple[str, float, float]]:
+    """AD and RD between P2 and P4, as the standard wants it, or else between the first two poses."""
+    by_name = {pose.name: pose for pose in poses}
+    pair = ("P2", "P4") if "P2" in by_name and "P4" in by_name else tuple(list(by_name)[:2])
+    if len(pair) < 2:
+        return []
+    first, second = (by_name[name] for name in pair)
+    n = min(len(first.attained), len(second.attained))
+    accuracy, repeatability = iso9283.distance_score(first.attained[:n, :3], second.attained[:n, :3], first.commanded[:3],
+                                                     second.commanded[:3])
+    return [(f"{pair[0]} to {pair[1]}", accuracy, repeatability)]

@@ -1,0 +1,107 @@
+"""`roboss record`: variables of a run in an open format."""
+from __future__ import annotations
+
+import tempfile
+import time
+from contextlib import ExitStack
+from pathlib import Path
+from typing import Any
+
+from ..errors import ArgumentError
+from .command import Parser, Progress
+from .recorder import is_journal, journal_of_run, record
+from .recording import SUFFIXES, write
+
+_EXAMPLES = """Variables are named ROBOT.WHAT; * ? [...] match many, up to the next dot, and ** beyond dots. --list shows all that a source has, with units.
+  car_3.pose  car_3.x  car_3.speed  car_3.energy  car_3.contacts      of a robot
+  arm.elbow.position  .velocity  .effort  .power                     of a joint
+  arm.tool.pose  arm.tool.twist                                      of a link
+  car_3.laser.ranges                                                 readings of a sensor
+  car_3.**                                                           all of a robot
+
+Examples:
+  roboss record worlds/crossroads.sdf --list
+  roboss record worlds/crossroads.sdf 'car_*.speed' car_3.pose --until 10 -o run.parquet
+  roboss record worlds/crossroads.sdf '*.pose' --until 10 --orders worlds/crossroads.jsonl -o run.mcap
+  roboss record run.journal 'arm.*.effort' --every 0.001 -o efforts.parquet        afterwards, from a journal
+  roboss plot run.parquet car_3.speed
+
+A world is run here; with --orders or --client it is first run by `roboss run` into a journal. A journal is replayed
+to the last bit, so its recording is that of the run. MCAP opens in Foxglove, Parquet in pandas, Polars, DuckDB."""
+
+
+def parser() -> Parser:
+    result = Parser("roboss record", examples=_EXAMPLES,
+                    description="Records variables of a world or of a journal over time, as Parquet or MCAP.")
+    result.add_argument("source", metavar="SOURCE", help="a world (SDFormat, URDF, MJCF) or a journal")
+    result.add_argument("variables", nargs="*", metavar="VARIABLE", help="names or patterns (default: *.pose)")
+    result.add_argument("-o", "--output", metavar="FILE", help="ends in .parquet or .mcap")
+    result.add_argument("--list", action="store_true", help="show the variables that there are, and record nothing")
+    result.add_argument("--every", type=float, default=0.01, metavar="S", help="time between two samples (default: 0.01)")
+    result.add_argument("--from", type=float, dest="start", metavar="S", help="time of the first sample (default: the first)")
+    result.add_argument("--until", type=float, metavar="S", help="time of the last sample (default: the end of the journal)")
+    result.add_argument("--branch", type=int, metavar="N", help="of a journal (default: the youngest)")
+    result.add_argument("--orders", metavar="FILE", help="orders for the robots of a world, as of `roboss run`")
+    result.add_argument("--client", action="append", default=[], metavar="LIB", help="a control program, as of `roboss run`")
+    add_common(result)
+    return result
+
+
+def add_common(to: Parser) -> None:
+    """Options that all three commands have."""
+    to.add_argument("--json", action="store_true", help="print the result as JSON")
+    to.add_argument("--quiet", action="store_true", help="no progress")
+
+
+def run(options: Any) -> Any:
+    if not options.every > 0:
+        raise ArgumentError(f"a time of {options.every} s between samples", "give one above 0", "bad-value")
+    if not options.list and (options.output is None or Path(options.output).suffix not in SUFFIXES):
+        raise ArgumentError("no file to write" if options.output is None else f"a file named '{options.output}'",
+                            "give -o FILE.parquet or -o FILE.mcap", "unknown-format")
+    progress, begin = Progress("record", options.quiet), time.monotonic()
+    with ExitStack() as stack:
+        source = options.source
+        if (options.orders or options.client) and not options.list:
+            if is_journal(source):
+                raise ArgumentError("--orders or --client with a journal", "leave them out: it has its orders", "bad-value")
+            if options.until is None:
+                raise ArgumentError("a world has no end", "say until which time (--until)", "no-end")
+            progress.note("runs the world into a journal")
+            folder = stack.enter_context(tempfile.TemporaryDirectory(prefix="roboss_record_"))
+            source = journal_of_run(source, options.until, folder, orders=options.orders, clients=options.client)
+        if options.list:
+            return _list(options)
+        recording = record(source, options.variables or ["*.pose"], until=options.until, every=options.every,
+                           start=options.start, branch=options.branch,
+                           progress=lambda now, end: progress(f"{now:.2f} of {end:.2f} s"))
+        recording.facts["source"] = options.source
+        write(recording, options.output)
+    result = {"file": options.output, "variables": list(recording.variables), "columns": len(recording.columns),
+              "samples": len(recording.time), "first_s": float(recording.time[0]), "last_s": float(recording.time[-1]),
+              "took_s": round(time.monotonic() - begin, 3)}
+    if not options.json:
+        print(f"{options.output}: {len(recording.variables)} variables, {result['samples']} samples from "
+              f"{result['first_s']:g} to {result['last_s']:g} s")
+    return result
+
+
+def _list(options: Any) -> Any:
+    from .recorder import _opened
+    from .variables import Variables
+    until = options.until if options.until is not None else None if is_journal(options.source) else 0.0
+    run_of, _, _ = _opened(options.source, options.start, until, options.branch)
+    columns = Variables(run_of, options.variables or None).columns
+    found: dict[str, list] = {}
+    for column in columns:
+        found.setdefault(column.variable, []).append(column)
+    rows = [{"variable": name, "parts": [part.name[len(name) + 1:] for part in parts], "units": [part.unit for part in parts],
+             "frame": parts[0].frame} for name, parts in found.items()]
+    if not options.json:
+        width = max(len(row["variable"]) for row in rows)
+        for row in rows:
+            units = list(dict.fromkeys(unit or "-" for unit in row["units"]))
+            count = len(row["parts"])
+            parts = "" if count == 1 else " ".join(row["parts"]) if count <= 8 else f"{count} numbers"
+            print(f"{row['variable']:{width}}  {', '.join(units):12}  {parts}".rstrip())
+    return rows

@@ -1,0 +1,155 @@
+"""Recording of a world that is run, and of a journal that is replayed: any variables, also afterwards."""
+from __future__ import annotations
+
+import os
+import subprocess
+import tempfile
+import warnings
+from pathlib import Path
+from typing import Callable, Iterable, Iterator, Optional, Sequence, Union
+
+import numpy as np
+
+from ..errors import ArgumentError, JournalError, RobossError, WorldWarning
+from ..journal import Journal
+from ..kinematics import RobotModel
+from ..run import Run
+from ..simulation import Simulation
+from ..world import World, load
+from .recording import SUFFIXES, Recording, read
+from .variables import Variables
+
+Source = Union[str, os.PathLike, World, Simulation, Journal]
+Progress = Callable[[float, float], None]  # gets the time and the end, s
+_PROGRAM = Path(__file__).parents[1] / "program" / "bin" / "roboss"
+_SQLITE = b"SQLite format 3\0"
+
+
+def record(source: Source, patterns: Union[str, Iterable[str], None] = None, *, until: Optional[float] = None,
+           every: float = 0.01, start: Optional[float] = None, branch: Optional[int] = None,
+           progress: Optional[Progress] = None) -> Recording:
+    """Records variables of a run.
+
+    Args:
+        source: a journal (its path, or a Journal), which is replayed; a world (its path, or a World), which is run; a
+            Simulation, which is stepped on; or the path of a recording, of which a part is taken.
+        patterns: of variables, as of Variables; None: all.
+        until: time of the last sample, s; None: the end of the journal.
+        every: time between two samples, s; rounded to ticks, at least one.
+        start: time of the first sample, s; None: the beginning of the journal, the present of a Simulation.
+        branch: of a journal; None: the youngest.
+        progress: is called at each sample.
+
+    Raises:
+        UnknownNameError: a pattern matches no variable.
+        ArgumentError: a world needs `until` (code "no-end"), or a time that is not there.
+
+    >>> recording = roboss.analysis.record(roboss.example("crossroads.sdf"), "car_*.speed", until=0.1)
+    >>> recording.values.shape                      # 0, 0.01 ... 0.1 s; 16 cars
+    (11, 16)
+    """
+    if not isinstance(source, (World, Simulation, Journal)) and Path(source).suffix in SUFFIXES:
+        return _part(read(source), patterns, start, until)
+    run, last, ending = _opened(source, start, until, branch)
+    every_ticks = max(1, round(every / run.dt))
+    variables = Variables(run, patterns)
+    times, rows = [], []
+    for sim in _samples(run, round(last / run.dt), every_ticks):
+        times.append(sim.time)
+        rows.append(variables.read())
+        if progress:
+            progress(sim.time, last)
+    facts = {"source": ending, "world": run.world.name, "world_hash": run.world.hash, "dt": run.dt,
+             "gravity": list(run.world.gravity), "mass_kg": masses(run.world, {c.name.split(".")[0] for c in variables.columns})}
+    return Recording(np.array(times), variables.columns, np.array(rows).reshape(len(times), -1), facts)
+
+
+def masses(world: World, robots: Iterable[str]) -> dict[str, float]:
+    """Masses of robots with a free base, kg: the first number of their mass matrix."""
+    found = {}
+    for robot in sorted(set(robots) & set(world.robots)):
+        model = RobotModel(world, robot, cut_loops=True)
+        if model.free_base:
+            found[robot] = float(model.mass_matrix(model.start)[0, 0])
+    return found
+
+
+def journal_of_run(world: Union[str, os.PathLike], until: float, folder: Union[str, os.PathLike], *,
+                   orders: Optional[str] = None, clients: Sequence[str] = ()) -> Path:
+    """Runs a world by the program `roboss`, with orders and control programs, and gives the path of its journal.
+
+    Raises:
+        RobossError: the run failed; the text is what the program printed.
+    """
+    journal = Path(folder) / "run.journal"
+    command = [str(_PROGRAM), "run", os.fspath(world), "--headless", "--quiet", "--speed", "max", "--duration", repr(until),
+               "--journal", str(journal)]
+    command += ["--orders", orders] if orders else []
+    for client in clients:
+        command += ["--client", client]
+    done = subprocess.run(command, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True, check=False)
+    if done.returncode != 0:
+        raise RobossError("the run failed:\n" + done.stderr.strip(), "", "run-failed")
+    return journal
+
+
+def is_journal(path: Union[str, os.PathLike]) -> bool:
+    """Whether the file is a journal or a saved run."""
+    try:
+        with open(path, "rb") as stream:
+            return stream.read(len(_SQLITE)) == _SQLITE
+    except OSError:
+        return False
+
+
+def opened_world(path: Union[str, os.PathLike], **options) -> World:
+    """load(), without its warnings: a recording is not the place for them (`roboss check` has them)."""
+    if not Path(path).is_file():
+        raise ArgumentError(f"there is no file '{os.fspath(path)}'", "give a world, a journal or a recording", "no-file")
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", WorldWarning)
+        return load(path, **options)
+
+
+def _opened(source: Source, start: Optional[float], until: Optional[float],
+            branch: Optional[int]) -> tuple[Run, float, str]:
+    """The run at its first sample, the time of the last, and what it is."""
+    if isinstance(source, Journal) or (not isinstance(source, (World, Simulation)) and is_journal(source)):
+        journal = source if isinstance(source, Journal) else Journal(source)
+        first, last = journal.times(branch)
+        end = last if until is None else until
+        if not first <= end <= last + 1e-9:
+            raise JournalError(f"'{journal.path}' has no time {end:g} s", f"give one from {first:g} to {last:g} s",
+                               "no-such-time")
+        return journal.at(first if start is None else start, branch), end, journal.path
+    if until is None:
+        raise ArgumentError("a world has no end", "say until which time (--until)", "no-end")
+    if isinstance(source, Simulation):
+        sim, name = source, source.world.file
+    else:
+        world = source if isinstance(source, World) else opened_world(source)
+        sim, name = Simulation(world), world.file
+    if start is not None and start > sim.time:
+        sim.step(round(start / sim.dt) - sim.tick)
+    return sim, until, name
+
+
+def _samples(run: Run, last: int, every: int) -> Iterator[Run]:
+    """The run at each time of a sample."""
+    yield run
+    while run.tick + every <= last:
+        run.step(every)
+        yield run
+
+
+def _part(recording: Recording, patterns: Union[str, Iterable[str], None], start: Optional[float],
+          until: Optional[float]) -> Recording:
+    """Some columns and times of a recording."""
+    chosen = range(len(recording.columns)) if patterns is None else recording.select(patterns)
+    rows = np.ones(len(recording.time), dtype=bool)
+    if start is not None:
+        rows &= recording.time >= start - 1e-9
+    if until is not None:
+        rows &= recording.time <= until + 1e-9
+    columns = [recording.columns[number] for number in chosen]
+    return Recording(recording.time[rows], columns, recording.values[rows][:, list(chosen)], recording.facts)

@@ -1,0 +1,147 @@
+"""Recording: variables of a run over time, as tables; what `roboss record` writes and `plot` and `analyse` read."""
+from __future__ import annotations
+
+import functools
+import os
+import re
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, Callable, Iterable, Sequence, Union
+
+import numpy as np
+
+from ..errors import ArgumentError, RobossError
+from ..names import unknown
+from ..robots import Floats
+
+SUFFIXES = (".parquet", ".mcap")
+
+
+@dataclass(frozen=True)
+class Column:
+    """A column of numbers.
+
+    Attributes:
+        name: "car_3.pose.x".
+        variable: what it is a part of: "car_3.pose".
+        unit: "m", "rad/s"; "" for ratios, counts, parts of quaternions.
+        frame: in whose axes it is: "world", or "".
+    """
+
+    name: str
+    variable: str
+    unit: str = ""
+    frame: str = ""
+
+
+class Recording:
+    """Columns of numbers over time.
+
+    Attributes:
+        time: (T,), s, ascending.
+        columns: descriptions of the columns, in their order.
+        values: (T, columns).
+        facts: what else is known: "world", "world_hash", "dt", "source", "mass_kg" (by robot), "gravity".
+
+    >>> recording = roboss.analysis.record(roboss.example("crossroads.sdf"), ["car_3.speed", "car_3.pose"], until=0.1)
+    >>> recording["car_3.speed"].shape, recording["car_3.pose"].shape, recording["car_3.pose.z"].shape
+    ((11,), (11, 7), (11,))
+    """
+
+    def __init__(self, time: Floats, columns: Sequence[Column], values: Floats, facts: Union[dict[str, Any], None] = None):
+        self.time, self.columns, self.values, self.facts = time, tuple(columns), values, dict(facts or {})
+        if values.shape != (len(time), len(self.columns)):
+            raise ArgumentError(f"values of shape {values.shape} for {len(time)} times and {len(self.columns)} columns",
+                                code="bad-shape")
+
+    @property
+    def variables(self) -> tuple[str, ...]:
+        """Names of the variables, in the order of their columns."""
+        return tuple(dict.fromkeys(column.variable for column in self.columns))
+
+    def select(self, patterns: Union[str, Iterable[str]]) -> list[int]:
+        """Numbers of the columns of variables, or single columns, that match one of the patterns (`*`, `?`, `[...]`, `**`).
+
+        Raises UnknownNameError where a pattern matches none.
+        """
+        found: dict[int, None] = {}
+        for pattern in [patterns] if isinstance(patterns, str) else patterns:
+            some = [number for number, column in enumerate(self.columns) if matches(pattern, column)]
+            if not some:
+                raise unknown("variable", pattern, self.variables)
+            found.update(dict.fromkeys(some))
+        return list(found)
+
+    def __getitem__(self, name: str) -> Floats:
+        """(T,) of a column or of a variable of one column, (T, columns) of a variable of several."""
+        numbers = [number for number, column in enumerate(self.columns) if name in (column.name, column.variable)]
+        if not numbers:
+            raise unknown("variable", name, self.variables)
+        return self.values[:, numbers[0]] if len(numbers) == 1 else self.values[:, numbers]
+
+    def __contains__(self, name: str) -> bool:
+        return any(name in (column.name, column.variable) for column in self.columns)
+
+    def __repr__(self) -> str:
+        return f"<roboss.analysis.Recording: {len(self.variables)} variables, {len(self.time)} times>"
+
+
+def matches(pattern: str, column: Column) -> bool:
+    """Whether the pattern names the column, or the variable that it is a part of. `*` and `?` stop at dots, `**` does not.
+
+    >>> speed, pose = Column("car_3.odometer.speed", "car_3.odometer.speed"), Column("car_3.pose.x", "car_3.pose")
+    >>> [matches(pattern, speed) for pattern in ("car_*.speed", "car_3.*.speed", "car_3.**", "**.speed")]
+    [False, True, True, True]
+    >>> [matches(pattern, pose) for pattern in ("*.pose", "car_[1-4].pose.?", "car_3.*", "car_3")]
+    [True, True, True, False]
+    """
+    found = _expression(pattern)
+    return found(column.variable) is not None or found(column.name) is not None
+
+
+@functools.cache
+def _expression(pattern: str) -> Callable[[str], Any]:
+    """The pattern as a regular expression that is matched in full."""
+    words = {"**": ".*", "*": "[^.]*", "?": "[^.]"}
+    parts = re.split(r"(\*\*|\*|\?|\[!?[^]]+\])", pattern)
+    text = "".join(words.get(part) or (part.replace("[!", "[^") if part.startswith("[") else re.escape(part)) for part in parts)
+    return re.compile(text).fullmatch
+
+
+def write(recording: Recording, path: Union[str, os.PathLike]) -> None:
+    """Writes a file; its name says the format: .parquet or .mcap. Raises ArgumentError for another name."""
+    if _suffix(path) == ".parquet":
+        from .parquet_file import write_parquet
+        write_parquet(recording, path)
+    else:
+        from .mcap_file import write_mcap
+        write_mcap(recording, path)
+
+
+def read(path: Union[str, os.PathLike]) -> Recording:
+    """Reads a file of `write`, or of `roboss record`.
+
+    Raises:
+        RobossError: it cannot be read (code "no-recording").
+    """
+    suffix = _suffix(path)
+    try:
+        if suffix == ".parquet":
+            from .parquet_file import read_parquet
+            return read_parquet(path)
+        from .mcap_file import read_mcap
+        return read_mcap(path)
+    except RobossError:
+        raise
+    except Exception as error:  # whatever the libraries raise for what is missing or damaged
+        if isinstance(error, ImportError):
+            raise
+        raise RobossError(f"'{os.fspath(path)}' cannot be read: {error}", "give a file that `roboss record` wrote",
+                          "no-recording") from error
+
+
+def _suffix(path: Union[str, os.PathLike]) -> str:
+    suffix = Path(path).suffix
+    if suffix not in SUFFIXES:
+        raise ArgumentError(f"a recording named '{os.fspath(path)}'", "end the name in .parquet or .mcap", "unknown-format")
+    return suffix

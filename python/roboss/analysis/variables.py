@@ -1,0 +1,168 @@
+"""What can be recorded of a run: variables of robots, joints, links and sensors, by name."""
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any, Callable, Iterable, Union
+
+import numpy as np
+
+from ..errors import ArgumentError, SensorError
+from ..names import unknown
+from ..robots import Floats, Robots
+from ..run import Run
+from ..sensors import Sensor
+from .recording import Column, matches
+
+_POSE = (("x", "m"), ("y", "m"), ("z", "m"), ("qx", ""), ("qy", ""), ("qz", ""), ("qw", ""))
+_TWIST = (("vx", "m/s"), ("vy", "m/s"), ("vz", "m/s"), ("wx", "rad/s"), ("wy", "rad/s"), ("wz", "rad/s"))
+#: Kinds of sensors whose readings are images, texts, or lists that change their length.
+_NO_NUMBERS = ("camera", "contact", "radio")
+_Read = Callable[[Robots], Any]  # gives (N, parts)
+
+
+@dataclass(frozen=True)
+class _Kind:
+    """A variable that all robots of a type have: its name behind the robot's, its parts, and how to read it."""
+
+    name: str
+    parts: tuple[tuple[str, str], ...]  # (name, unit); ("", unit) of one number
+    frame: str
+    read: _Read
+
+    def columns(self, robot: str) -> list[Column]:
+        variable = f"{robot}.{self.name}"
+        return [Column(variable + (f".{part}" if part else ""), variable, unit, self.frame) for part, unit in self.parts]
+
+
+class Variables:
+    """Variables of a run that match patterns; `read` gives their values at the present tick.
+
+    Names are ROBOT.WHAT: `car_3.pose`, `car_3.speed`, `arm.elbow.effort` (a joint), `arm.tool.pose` (a link),
+    `car_3.laser.ranges` (a sensor). docs/analysis.md lists them. A pattern matches variables or
+    single columns: `*.pose`, `car_3.pose.x`; `*` and `?` stop at dots, `**` does not: `car_3.**` is all of a robot.
+
+    Args:
+        run: a Simulation or RemoteSimulation.
+        patterns: None: all.
+
+    Raises:
+        UnknownNameError: a pattern matches nothing.
+    """
+
+    def __init__(self, run: Run, patterns: Union[str, Iterable[str], None] = None):
+        wanted = None if patterns is None else [patterns] if isinstance(patterns, str) else list(patterns)
+        self.columns: list[Column] = []  #: of the arrays of read()
+        self._parts: list[tuple[Robots, _Read, list[int]]] = []
+        unmatched = set(wanted or ())
+        known: list[str] = []
+        for robots in _by_type(run):
+            for kind in _kinds(robots):
+                rows, places = [], []
+                for row, robot in enumerate(robots.names):
+                    columns = kind.columns(robot)
+                    known.append(columns[0].variable)
+                    hit = [p for p in wanted or () if any(matches(p, column) for column in columns)]
+                    chosen = [wanted is None or any(matches(p, column) for p in hit) for column in columns]
+                    unmatched -= set(hit)
+                    if any(chosen):
+                        rows.append(row)
+                        places.append([len(self.columns) + n for n in range(len(columns))])
+                        self.columns += columns
+                if rows:
+                    some = robots if len(rows) == len(robots) else robots[np.array(rows)]
+                    self._parts.append((some, kind.read, [place for row in places for place in row]))
+        for pattern in unmatched:
+            raise unknown("variable", pattern, known)
+        self._chosen = [number for number, column in enumerate(self.columns)
+                        if wanted is None or any(matches(p, column) for p in wanted)]
+        self._all = len(self.columns)
+        self.columns = [self.columns[number] for number in self._chosen]
+
+    def read(self) -> Floats:
+        """Values at the present tick, (columns,)."""
+        out = np.empty(self._all)
+        for robots, read, places in self._parts:
+            values = np.asarray(read(robots), dtype=float).ravel()
+            if values.size != len(places):
+                raise ArgumentError(f"a sensor of '{robots.names[0]}' changed the number of its values", "leave it out",
+                                    "changed-length")
+            out[places] = values
+        return out[self._chosen]
+
+
+def yaw(quat_xyzw: Floats) -> Floats:
+    """Heading of orientations, (...,): rad, about z, from (..., 4)."""
+    x, y, z, w = np.moveaxis(quat_xyzw, -1, 0)
+    return np.arctan2(2 * (w * z + x * y), 1 - 2 * (y * y + z * z))
+
+
+def _by_type(run: Run) -> list[Robots]:
+    """The robots of the run, a set for each type."""
+    types: dict[int, list[int]] = {}
+    for number, kind in enumerate(run.world._types):
+        types.setdefault(kind, []).append(number)
+    return [Robots(run, numbers) for numbers in types.values()]
+
+
+def _kinds(robots: Robots) -> list[_Kind]:
+    return [*_of_base(robots), *_of_joints(robots), *_of_links(robots), *_of_sensors(robots)]
+
+
+def _of_base(robots: Robots) -> list[_Kind]:
+    kinds = [_Kind("pose", _POSE, "world", lambda r: r.pose)]
+    for number, axis in enumerate("xyz"):
+        kinds.append(_Kind(axis, (("", "m"),), "world", lambda r, n=number: r.pose[:, n]))
+    kinds.append(_Kind("yaw", (("", "rad"),), "world", lambda r: yaw(r.pose[:, 3:])))
+    if robots._facts.free_base:
+        kinds += [_Kind("twist", _TWIST, "world", lambda r: r.twist),
+                  _Kind("speed", (("", "m/s"),), "", lambda r: np.linalg.norm(r.twist[:, :3], axis=1))]
+    return kinds + [_Kind("energy", (("kinetic", "J"), ("potential", "J")), "", lambda r: r.energy),
+                    _Kind("contacts", (("", ""),), "", _contacts),
+                    _Kind("touching", (("", ""),), "", lambda r: r.touching)]
+
+
+def _contacts(robots: Robots) -> Floats:
+    """Contact points of each robot that carry a force."""
+    contacts = robots.simulation.contacts
+    count = np.bincount(contacts["robot_a"], minlength=len(robots._world.robots))
+    others = contacts["robot_b"][contacts["robot_b"] >= 0]
+    return (count + np.bincount(others, minlength=len(count)))[list(robots.ids)]
+
+
+def _of_joints(robots: Robots) -> list[_Kind]:
+    kinds = []
+    for number, (joint, unit) in enumerate(zip(robots.joints, robots._facts.units)):
+        effort, power = ("N", "W") if unit == "m" else ("N m", "W")
+        kinds += [_Kind(f"{joint}.position", (("", unit),), "", lambda r, n=number: r.joint_position[:, n]),
+                  _Kind(f"{joint}.velocity", (("", unit + "/s"),), "", lambda r, n=number: r.joint_velocity[:, n]),
+                  _Kind(f"{joint}.effort", (("", effort),), "", lambda r, n=number: r.joint_effort[:, n]),
+                  _Kind(f"{joint}.power", (("", power),), "",
+                        lambda r, n=number: r.joint_effort[:, n] * r.joint_velocity[:, n])]
+    return kinds
+
+
+def _of_links(robots: Robots) -> list[_Kind]:
+    kinds = []
+    for link in robots.links:
+        kinds += [_Kind(f"{link}.pose", _POSE, "world", lambda r, n=link: r.link_pose(n)),
+                  _Kind(f"{link}.twist", _TWIST, "world", lambda r, n=link: r.link_twist(n))]
+    return kinds
+
+
+def _of_sensors(robots: Robots) -> list[_Kind]:
+    kinds = []
+    for name in robots.sensors:
+        sensor = robots[:1][name]
+        if not isinstance(sensor, Sensor) or any(word in sensor.kind for word in _NO_NUMBERS):
+            continue
+        try:
+            readings, units = sensor.read_all(), sensor.units
+        except SensorError:  # it cannot measure in this world
+            continue
+        for value, array in readings.items():
+            if isinstance(array, np.ndarray) and array.dtype.kind in "fiub":
+                count = array[0].size
+                parts = tuple((str(n), units.get(value, "")) for n in range(count)) if array.ndim > 1 else \
+                    (("", units.get(value, "")),)
+                kinds.append(_Kind(f"{name}.{value}", parts, "", lambda r, n=name, v=value: r[n].read_all()[v]))
+    return kinds
