@@ -8,7 +8,7 @@
 namespace soccer {
 namespace {
 
-constexpr double kAcceleration = 5.0;  // m/s2, of a wheel: below what its tyre can do
+constexpr double kAcceleration = 4.5;  // m/s2, of a wheel: below what its tyre can do
 constexpr double kSideways = 4.0;      // m/s2, in a curve
 constexpr double kTurnGain = 10.0;     // 1/s, turn rate for an angle
 constexpr double kTopTurn = 16.0;      // rad/s

@@ -22,12 +22,15 @@ using soccer::kGoalBeads;
 constexpr double kLine = 0.005;  // m, width of a line
 constexpr const char* kWhite = "0.92 0.92 0.90";
 
-// 0.5 kg in all, its centre of mass 2.9 cm above the field, nearly all of it on the wheels: the sliders have
-// half a millimetre of play. Inertias of the solid box and cylinders. A motor of 0.045 N m drives its wheel
-// with 2 N, which is the grip of the tyre: 0.85 * 0.5 * 0.5 kg * 9.81 m/s2 = 2.1 N.
+// 0.5 kg in all. Battery and motors lie low: its centre of mass is 2 cm above the field. The sliders have
+// half a millimetre of play, so it rests on the wheels. Inertias of the solid box and cylinders. Motors of
+// 0.03 N m push with 2.7 N, 5.1 m/s2 (the wheels' inertia counts as 30 g). The rear slider then bears 5.1
+// m/s2 * 0.5 kg * 2 cm / 3.4 cm = 1.5 N of the 4.9 N, so soft tyres (friction 1.2) still grip with 4.1 N: it
+// does not skid. The tyres are round (ellipsoids): with the two contact points of a cylinder on each side, a
+// robot that accelerates begins to turn.
 constexpr const char* kChassis = R"(      <link name="chassis">
         <inertial>
-          <pose>0 0 0.03 0 0 0</pose>
+          <pose>0 0 0.02 0 0 0</pose>
           <mass>0.44</mass>
           <inertia><ixx>0.0004125</ixx><iyy>0.0004125</iyy><izz>0.0004125</izz><ixy>0</ixy><ixz>0</ixz><iyz>0</iyz></inertia>
         </inertial>
@@ -37,12 +40,12 @@ constexpr const char* kChassis = R"(      <link name="chassis">
           <surface><friction><ode><mu>0.2</mu><mu2>0.2</mu2></ode></friction></surface>
         </collision>
         <collision name="front_slider">
-          <pose>0.03 0 0.0035 0 0 0</pose>
+          <pose>0.034 0 0.0035 0 0 0</pose>
           <geometry><sphere><radius>0.003</radius></sphere></geometry>
           <surface><friction><ode><mu>0</mu><mu2>0</mu2></ode></friction></surface>
         </collision>
         <collision name="rear_slider">
-          <pose>-0.03 0 0.0035 0 0 0</pose>
+          <pose>-0.034 0 0.0035 0 0 0</pose>
           <geometry><sphere><radius>0.003</radius></sphere></geometry>
           <surface><friction><ode><mu>0</mu><mu2>0</mu2></ode></friction></surface>
         </collision>
@@ -55,9 +58,8 @@ constexpr const char* kWheel = R"(      <link name="{0}_wheel">
           <inertia><ixx>3.79e-6</ixx><iyy>7.26e-6</iyy><izz>3.79e-6</izz><ixy>0</ixy><ixz>0</ixz><iyz>0</iyz></inertia>
         </inertial>
         <collision name="tyre">
-          <pose>0 0 0 1.5707963 0 0</pose>
-          <geometry><cylinder><radius>0.022</radius><length>0.008</length></cylinder></geometry>
-          <surface><friction><ode><mu>0.85</mu><mu2>0.85</mu2></ode></friction></surface>
+          <geometry><ellipsoid><radii>0.022 0.006 0.022</radii></ellipsoid></geometry>
+          <surface><friction><ode><mu>1.2</mu><mu2>1.2</mu2></ode></friction></surface>
         </collision>
         <visual name="tyre">
           <pose>0 0 0 1.5707963 0 0</pose>
@@ -70,7 +72,7 @@ constexpr const char* kWheel = R"(      <link name="{0}_wheel">
         <child>{0}_wheel</child>
         <axis>
           <xyz>0 1 0</xyz>
-          <limit><effort>0.045</effort><velocity>230</velocity></limit>
+          <limit><effort>0.03</effort><velocity>230</velocity></limit>
         </axis>
       </joint>
 )";
@@ -106,7 +108,7 @@ void add_head(Text& text, const Field& field) {
       <link name="link">
         <collision name="table">
           <geometry><plane><normal>0 0 1</normal><size>{2:.2f} {3:.2f}</size></plane></geometry>
-          <surface><friction><ode><mu>1</mu><mu2>1</mu2></ode></friction></surface>
+          <surface><friction><ode><mu>1.2</mu><mu2>1.2</mu2></ode></friction></surface>
         </collision>
         <visual name="table">
           <geometry><plane><normal>0 0 1</normal><size>{2:.2f} {3:.2f}</size></plane></geometry>
