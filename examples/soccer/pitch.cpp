@@ -79,8 +79,7 @@ Camera Camera::from_environment() {
     return {noise_mm / 1000, noise_deg * roboss::kPi / 180, delay_ms / 1000};
 }
 
-View see(roboss::Client& client, const Pitch& pitch, Team team, const Camera& camera) {
-    const double side = side_of(team, client.time_s());
+View see(roboss::Client& client, const Pitch& pitch, Team team, const Camera& camera, double side) {
     const auto mover = [&](roboss::RobotId robot) {
         Mover seen = mover_of(client, robot, side);
         // Both teams look through the same camera; 0 is the index of no sensor of theirs.

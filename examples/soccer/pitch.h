@@ -62,6 +62,7 @@ struct Camera {
     static Camera from_environment();
 };
 
-View see(roboss::Client& client, const Pitch& pitch, Team team, const Camera& camera);
+/// As the team sees it that plays to `side`: of the world's x axis, +1 or -1.
+View see(roboss::Client& client, const Pitch& pitch, Team team, const Camera& camera, double side);
 
 }  // namespace soccer

@@ -25,7 +25,8 @@ class TeamProgram final : public roboss::ControlProgram {
 
     void control(roboss::Client& client) override {
         std::vector<WheelSpeeds> speeds(pitch_.of_team(kTeam).size());
-        if (client.time_s() < end_s_) speeds = kStrategy(see(client, pitch_, kTeam, camera_));
+        if (client.time_s() < end_s_)
+            speeds = kStrategy(see(client, pitch_, kTeam, camera_, side_of(kTeam, client.time_s())));
         for (std::size_t i = 0; i < speeds.size(); ++i) {
             const roboss::RobotId robot = pitch_.of_team(kTeam)[i];
             // Refused only if the Model changed under us; the next frame tries again.
