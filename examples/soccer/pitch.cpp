@@ -67,16 +67,14 @@ double side_of(Team team, double time_s) {
     return time_s < half_length_s() ? first : -first;
 }
 
-Camera Camera::from_environment() {
+std::optional<Camera> Camera::from_environment() {
     const char* text = std::getenv("ROBOSS_SOCCER_CAMERA");
-    if (text == nullptr) return {};
+    if (text == nullptr) return Camera{};
     std::istringstream numbers(text);
     double noise_mm = -1, noise_deg = -1, delay_ms = -1;
     numbers >> noise_mm >> noise_deg >> delay_ms;
-    if (!numbers || noise_mm < 0 || noise_deg < 0 || delay_ms < 0)
-        throw std::runtime_error(std::string("ROBOSS_SOCCER_CAMERA is \"") + text +
-                                 "\"\n  remedy: give noise in mm and degrees, and a delay in ms: \"2 1 33\"");
-    return {noise_mm / 1000, noise_deg * roboss::kPi / 180, delay_ms / 1000};
+    if (!numbers || noise_mm < 0 || noise_deg < 0 || delay_ms < 0) return std::nullopt;
+    return Camera{noise_mm / 1000, noise_deg * roboss::kPi / 180, delay_ms / 1000};
 }
 
 View see(roboss::Client& client, const Pitch& pitch, Team team, const Camera& camera, double side) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -59,7 +60,8 @@ double side_of(Team team, double time_s);
 /// (standard deviation) and images that are 33 ms old. All 0: teams see true states.
 struct Camera {
     double noise_m = 0, noise_rad = 0, delay_s = 0;
-    static Camera from_environment();
+    /// Nothing if the variable is set to anything else.
+    static std::optional<Camera> from_environment();
 };
 
 /// As the team sees it that plays to `side`: of the world's x axis, +1 or -1.

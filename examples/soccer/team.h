@@ -1,6 +1,7 @@
 // A team as a control program: it looks at the field sixty times a second, and sets the speeds of its wheels.
 #pragma once
 
+#include <stdexcept>
 #include <vector>
 
 #include "strategies.h"
@@ -12,14 +13,21 @@ using Strategy = std::vector<WheelSpeeds> (*)(const View&);
 template <Team kTeam, Strategy kStrategy>
 class TeamProgram final : public roboss::ControlProgram {
   public:
-    /// An image that is old when it arrives is the same as orders that take effect later.
+    /// An image that is old when it arrives is the same as orders that take effect later. A camera that is
+    /// none is reported by start().
     roboss::ControlOptions options() const override {
-        return {kFrame, kFrame + Camera::from_environment().delay_s, true};
+        const auto camera = Camera::from_environment();
+        return {kFrame, kFrame + (camera ? camera->delay_s : 0.0), true};
     }
 
     void start(roboss::Client& client) override {
         pitch_ = Pitch::of(client);
-        camera_ = Camera::from_environment();
+        const auto camera = Camera::from_environment();
+        if (!camera)
+            throw std::runtime_error(
+                "ROBOSS_SOCCER_CAMERA is no camera\n"
+                "  remedy: give noise in mm and degrees, and a delay in ms: \"2 1 33\"");
+        camera_ = *camera;
         end_s_ = 2 * half_length_s();
     }
 
