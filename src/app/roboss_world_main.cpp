@@ -7,6 +7,7 @@
 
 #include "app/worlds/city_world.h"
 #include "app/worlds/joint_grid_world.h"
+#include "app/worlds/soccer_world.h"
 
 namespace {
 
@@ -52,8 +53,16 @@ int main(int argc, char** argv) {
     make_grid->add_option("--columns", grid.columns, "1 to 1000")
         ->check(CLI::Range(1, 1000))
         ->capture_default_str();
-    for (CLI::App* make : {make_city, make_grid})
+    roboss::SoccerOptions soccer;
+    CLI::App* make_soccer = app.add_subcommand(
+        "soccer",
+        "a field of FIRA MiroSot with two teams of two-wheeled cubes and a golf ball (docs/soccer.md)");
+    make_soccer->add_option("--league", soccer.league, "small: 3 robots a side, middle: 5, large: 11")
+        ->check(CLI::IsMember({"small", "middle", "large"}))
+        ->capture_default_str();
+    for (CLI::App* make : {make_city, make_grid, make_soccer})
         make->add_option("-o,--output", file, "output file (default, or with -: standard output)");
     CLI11_PARSE(app, argc, argv);
+    if (make_soccer->parsed()) return write_world(roboss::soccer_sdf(soccer), file);
     return write_world(make_grid->parsed() ? roboss::joint_grid_sdf(grid) : roboss::city_sdf(city), file);
 }

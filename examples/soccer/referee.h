@@ -1,0 +1,86 @@
+// The referee as a pure state machine: it is told where the ball and the robots are, and says what happened
+// and where everything has to be put. The laws are those of FIRA MiroSot (docs/soccer.md says which).
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "pitch.h"
+
+namespace soccer {
+
+enum class Call : int {
+    kKickOff,   // at the start of a half, and after a goal for the other team
+    kGoal,      // counted; a kick-off follows at once
+    kFreeBall,  // nobody moved the ball for ten seconds, or it left the field
+    kPenalty,   // against a team whose goalkeeper keeps the ball in its goal area, or is not alone there
+    kHalfTime,  // the teams change ends; a kick-off follows at once
+    kFullTime,
+};
+const char* name_of(Call call);
+
+/// Something that the referee called, for `team`: that has the kick-off, the goal or the penalty kick.
+struct Decision {
+    Call call{};
+    Team team = Team::kBlue;
+};
+
+/// Where everything stands after a decision, in the frame of the world.
+struct Restart {
+    double ball_x = 0, ball_y = 0;
+    std::array<std::vector<Stand>, 2> robots;  // by team and number
+};
+
+/// What the referee looks at, in the frame of the world.
+struct Scene {
+    double time_s = 0;
+    double ball_x = 0, ball_y = 0, ball_z = 0;
+    std::array<std::vector<Mover>, 2> robots;
+};
+
+/// What the referee remembers.
+struct MatchState {
+    enum class Phase : int {
+        kBeforeStart,  // -> kFirstHalf with the first look
+        kFirstHalf,    // -> kSecondHalf at the half's end
+        kSecondHalf,   // -> kOver at the half's end
+        kOver,
+    };
+    Phase phase = Phase::kBeforeStart;
+    std::array<int, 2> score{};
+    double rest_x = 0, rest_y = 0, rest_since = 0;  // where the ball has been, about, since when
+    double area_since = -1, crowd_since = -1;       // ball in a goal area; with two defenders; negative: no
+};
+
+class Referee {
+  public:
+    Referee(const Field& field, double half_s) : field_(field), half_s_(half_s) {}
+
+    /// What happened since the last look; the last decision that has a restart is the one that counts.
+    std::vector<Decision> look(const Scene& scene);
+    /// Where everything is put for it; nothing after a goal (its kick-off puts all) and at the end.
+    std::optional<Restart> restart_of(const Decision& decision, const Scene& scene) const;
+
+    MatchState state;
+
+  private:
+    void look_for_time(const Scene& scene, std::vector<Decision>& decisions);
+    bool look_for_goal(const Scene& scene, std::vector<Decision>& decisions);
+    void look_for_standstill(const Scene& scene, std::vector<Decision>& decisions);
+    bool look_at_goal_area(const Scene& scene, std::vector<Decision>& decisions);
+    void begin_play(const Scene& scene, double ball_x, double ball_y);
+    bool is_second_half() const { return state.phase == MatchState::Phase::kSecondHalf; }
+    /// +1 if the team plays towards +x.
+    double side(Team team) const { return (team == Team::kBlue) != is_second_half() ? 1 : -1; }
+    Team defender_at(double x) const { return side(Team::kBlue) * x < 0 ? Team::kBlue : Team::kYellow; }
+    Restart kick_off(Team team) const;
+    Restart free_ball(const Scene& scene) const;
+    Restart penalty(Team team) const;
+    Stand placed(Team team, Stand own) const;
+
+    Field field_;
+    double half_s_;
+};
+
+}  // namespace soccer

@@ -1,0 +1,52 @@
+// The generated soccer field: the committed file is the generator's, and at a kick-off of either team nobody
+// stands in another robot, in a wall, or in the other half.
+#include "app/worlds/soccer_world.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+#include <iterator>
+#include <vector>
+
+#include "app/worlds/soccer_field.h"
+
+namespace roboss {
+namespace {
+
+TEST(SoccerWorld, TheCommittedFileIsTheGeneratorsOwn) {
+    std::ifstream file(ROBOSS_WORLDS "/soccer.sdf", std::ios::binary);
+    const std::string committed{std::istreambuf_iterator<char>(file), {}};
+    ASSERT_FALSE(committed.empty());
+    EXPECT_TRUE(committed == soccer_sdf({})) << "make it again: roboss-world soccer -o worlds/soccer.sdf";
+}
+
+TEST(SoccerWorld, LeaguesDifferAndAnUnknownOneIsEmpty) {
+    EXPECT_NE(soccer_sdf({"small"}), soccer_sdf({"middle"}));
+    EXPECT_NE(soccer_sdf({"large"}).find("yellow_10"), std::string::npos);
+    EXPECT_EQ(soccer_sdf({"tiny"}), "");
+}
+
+TEST(SoccerWorld, AtAKickOffEveryoneStandsFreeInTheOwnHalf) {
+    for (const soccer::Field& field : soccer::kFields) {
+        std::vector<soccer::Stand> taken{{0, 0, 0}};  // the ball
+        for (const bool has_kick_off : {true, false})
+            for (int i = 0; i < field.robots; ++i) {
+                soccer::Stand stand = soccer::kick_off_stand(field, i, has_kick_off);
+                EXPECT_LT(stand.x, -soccer::kRobotSize / 2);
+                EXPECT_GT(stand.x, -field.half_length + soccer::kRobotSize / 2);
+                EXPECT_LT(std::fabs(stand.y), field.half_width - soccer::kRobotSize);
+                if (!has_kick_off) {
+                    EXPECT_GT(std::hypot(stand.x, stand.y), field.circle) << "law: outside of the circle";
+                    stand.x = -stand.x, stand.y = -stand.y;
+                }
+                for (const soccer::Stand& other : taken)
+                    EXPECT_GT(std::hypot(stand.x - other.x, stand.y - other.y), 0.08)
+                        << field.league << " robot " << i;
+                taken.push_back(stand);
+            }
+    }
+}
+
+}  // namespace
+}  // namespace roboss
