@@ -8,9 +8,28 @@
 #include "client/user_code.h"
 
 namespace roboss {
+namespace {
 
-Result<BusClientOptions> client_options(const ControlOptions& options, const Model& model,
+Result<ControlOptions> options_of(const ControlProgram& program, const std::string& name) {
+    const UserCode mark(name, "options()");
+    std::string why = "an object that is not a std::exception";
+    try {
+        return program.options();
+    } catch (const std::exception& e) {
+        why = e.what();
+    } catch (...) {
+    }
+    return Error{"options() of control program '" + name + "' threw: " + why,
+                 "mend it, or do in start() what may fail", "client-failed"};
+}
+
+}  // namespace
+
+Result<BusClientOptions> client_options(const ControlProgram& program, const Model& model,
                                         const std::string& name) {
+    const Result<ControlOptions> given = options_of(program, name);
+    if (!given) return given.error();
+    const ControlOptions& options = given.value();
     const double latency_s = options.latency_s < 0 ? options.period_s : options.latency_s;
     const auto ticks = [&](double seconds) {
         return static_cast<Tick>(std::floor(seconds / model.dt_s + 0.5));
@@ -31,7 +50,7 @@ namespace {
 
 BusClientOptions options_or_default(const ControlProgram& program, const Model& model,
                                     const std::string& name) {
-    Result<BusClientOptions> options = client_options(program.options(), model, name);
+    Result<BusClientOptions> options = client_options(program, model, name);
     ROBOSS_CHECK(options.ok(), "check client_options() before making a ProgramHost");
     return std::move(options).value();
 }

@@ -52,8 +52,9 @@ class ProgramHost {
 /// memory_at() without what sensors held: after robots were removed they measure afresh.
 std::string without_samples(const std::string& memory);
 
-/// The times of a control program in ticks of this world. `name` is for the message of an Error.
-Result<BusClientOptions> client_options(const ControlOptions& options, const Model& model,
+/// The times of a control program in ticks of this world. Errors, with `name` in the message: options()
+/// throws, or a time that cannot be.
+Result<BusClientOptions> client_options(const ControlProgram& program, const Model& model,
                                         const std::string& name);
 
 }  // namespace roboss

@@ -9,6 +9,7 @@
 
 #include "gateway/onboard_json.h"
 #include "physics/dynamics/kinematics.h"
+#include "physics/dynamics/motor_effort.h"
 #include "wire/state_block.h"
 
 namespace roboss {
@@ -65,7 +66,7 @@ Json joint_json(const RobotType& type, const RobotState& state, JointId id, doub
         const MotorSetpoint& motor = state.motors[type.motor_index(joint, axis)];
         motors.push_back({{"mode", name_of(motor.mode)},
                           {"target", json_of(motor.target)},
-                          {"effort", json_of(motor.impulse / dt_s)},
+                          {"effort", json_of(motor_effort(motor, dt_s))},
                           {"max_effort", json_of(motor.max_effort)}});
     }
     return {

@@ -6,6 +6,7 @@
 
 #include "math/array_rows.h"
 #include "physics/dynamics/kinematics.h"
+#include "physics/dynamics/motor_effort.h"
 #include "world/joint_type.h"
 
 namespace roboss {
@@ -20,14 +21,6 @@ void read_joints(const RobotSet& set, const RunAccess& run, double JointState::*
     for (const RobotId robot : set.robots())
         for (const JointAxis& axis : set.axes())
             *to++ = joint_state(*set.type(), run.state(robot), axis.joint, axis.axis).*value;
-}
-
-/// What a motor gave in the last tick, N m or N. Impulses are not kept of robots that no row acts on; only
-/// motors that give an effort may drive these.
-double effort_of(const MotorSetpoint& motor, double dt_s) {
-    if (motor.mode == MotorMode::kEffort)
-        return std::clamp(motor.target, -motor.max_effort, motor.max_effort);
-    return motor.impulse / dt_s;
 }
 
 /// Adds the link's kinetic and potential energy, J.
@@ -110,7 +103,7 @@ void RobotSet::joint_efforts(const RunAccess& run, std::span<double> out) const 
     for (const RobotId robot : robots_)
         for (const JointAxis& axis : axes_) {
             const std::size_t motor = type_->motor_index(type_->joints[axis.joint.index()], axis.axis);
-            *to++ = effort_of(run.state(robot).motors[motor], model_->dt_s);
+            *to++ = motor_effort(run.state(robot).motors[motor], model_->dt_s);
         }
 }
 

@@ -1,5 +1,6 @@
 // Positions, velocities and efforts of joints.
 #include "physics/dynamics/kinematics.h"
+#include "physics/dynamics/motor_effort.h"
 #include "sensors/readings.h"
 
 namespace roboss {
@@ -10,7 +11,7 @@ void add_joint(const SensorQuery& query, JointId id, JointStatesReading& reading
     const JointState at = joint_state(type, query.state, id);
     const std::size_t motor = type.motor_index(type.joints[id.index()], 0);
     reading.positions.push_back(at.position), reading.velocities.push_back(at.velocity);
-    reading.efforts.push_back(query.state.motors[motor].impulse / query.model.dt_s);
+    reading.efforts.push_back(motor_effort(query.state.motors[motor], query.model.dt_s));
 }
 
 }  // namespace

@@ -108,6 +108,10 @@ TEST(JointStates, AreThoseOfAllMovingJointsOrOfTheChosen) {
         EXPECT_EQ(reading.velocities, (std::vector<double>{0.7}));
         EXPECT_EQ(reading.efforts, (std::vector<double>{5}));
     }
+    MovingCart pushed(JointStatesSpec{});
+    pushed.state.motors[0].mode = MotorMode::kEffort;
+    pushed.state.motors[0].target = -7, pushed.state.motors[0].max_effort = 4;
+    EXPECT_EQ(pushed.read<JointStatesReading>().efforts, (std::vector<double>{-4})) << "no row acts on it";
     EXPECT_EQ(MovingCart(JointStatesSpec{{"mast_joint"}}).read<JointStatesReading>().positions,
               (std::vector<double>{0}));
 }

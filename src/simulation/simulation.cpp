@@ -46,8 +46,7 @@ Result<std::unique_ptr<Simulation>> Simulation::create(std::shared_ptr<const Mod
         if (!names.insert(program.name).second)
             return Error{"two control programs are called '" + program.name + "'", "give each its own name",
                          "duplicate-name"};
-        if (Result<BusClientOptions> times = client_options(program.program->options(), *model, program.name);
-            !times)
+        if (Result<BusClientOptions> times = client_options(*program.program, *model, program.name); !times)
             return times.error();
     }
     return std::unique_ptr<Simulation>(

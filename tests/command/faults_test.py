@@ -48,6 +48,12 @@ class Faults(RobossTest):
                 for word in (*words, Path(PROGRAM).name):
                     self.assertIn(word, done.stderr)
 
+    def test_options_that_throw_are_an_error_before_the_run(self):
+        done = self.run_with("options")
+        self.assertEqual(done.returncode, 1, done.stderr)
+        for word in ("options()", "no options", Path(PROGRAM).name, "[client-failed]"):
+            self.assertIn(word, done.stderr)
+
     def test_a_refused_order_that_the_program_ignores_is_reported_once(self):
         for fault in ("order", "id"):
             with self.subTest(fault=fault):

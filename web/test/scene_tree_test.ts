@@ -55,6 +55,18 @@ test("robots stand under their types, scenery by its models; what is folded make
     );
 });
 
+test("a type that is called after a robot is headed by what the names of its own robots share", () => {
+    const teams = scene(6);
+    teams.types = teams.types.map((type) => ({ ...type, name: "blue_0" }));
+    teams.types[1].links = [];
+    teams.robots = ["blue_0", "blue_1", "yellow_0", "yellow_1"].map((name, k) => ({ name, type: k < 2 ? 0 : 1 }));
+    const headings = treeRows(teams, "", none, none).filter((row) => row.kind === "type");
+    assert.deepEqual(
+        headings.map(({ text }) => text),
+        ["blue", "yellow"],
+    );
+});
+
 test("a search finds robots and scenery by a part of their names, in folded branches, too", () => {
     const found = treeRows(scene(40), "car_3", new Set(["robots", "type:car"]), none).filter(
         (row) => row.kind === "robot",

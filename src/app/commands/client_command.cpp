@@ -46,7 +46,7 @@ class ClientProcess {
         if (!model) return interrupted() ? kSuccess : kBadInput;
         const std::string name =
             o_.name.empty() ? std::filesystem::path(o_.program).filename().string() : o_.name;
-        if (Result<BusClientOptions> times = client_options(program.value()->options(), *model, name); !times)
+        if (Result<BusClientOptions> times = client_options(*program.value(), *model, name); !times)
             return member_.report_error(times.error()), kBadInput;
         auto host = std::make_unique<ProgramHost>(model, self, name, std::move(program).value());
         see(*host);

@@ -19,6 +19,11 @@ int overflow(int depth) {
 }
 
 class FaultyProgram : public roboss::ControlProgram {
+    roboss::ControlOptions options() const override {
+        const char* wanted = std::getenv("FAULT");
+        if (wanted != nullptr && std::string(wanted) == "options") throw std::runtime_error("no options");
+        return {};
+    }
     void control(roboss::Client& client) override {
         if (client.time_s() < 0.25) return;
         const char* wanted = std::getenv("FAULT");

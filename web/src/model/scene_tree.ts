@@ -114,11 +114,14 @@ class Rows {
 
     private type(type: number, robots: number[]): boolean {
         const { name } = this.scene.types[type],
-            key = `type:${name}`,
+            names = robots.map((robot) => this.scene.robots[robot].name),
+            stem = stemOf(names[0]);
+        // A type may be called after its first robot, or after a robot of other colours: a stem that all share says more.
+        const ofARobot = this.scene.robots.some((robot) => robot.name === name),
+            text = ofARobot && names.every((one) => stemOf(one) === stem) ? stem : name,
+            key = `type:${text}`,
             open = this.opened(key),
-            sight = robots.map((robot) => robotKey(this.scene.robots[robot].name));
-        // A type is called after its first robot: without that one's number it names all of them.
-        const text = robots.some((robot) => this.scene.robots[robot].name === name) ? stemOf(name) : name;
+            sight = names.map(robotKey);
         this.rows.push({ kind: "type", key, text, level: 2, open, count: robots.length, sight });
         return open;
     }
