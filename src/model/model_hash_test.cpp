@@ -222,6 +222,8 @@ TEST(ModelHash, ChangesWithEveryParameterOfEverySensor) {
                 else
                     value = 7;
             });
+            // compile() makes numbers of shapes of the names of collisions
+            if (std::string_view(name) == "collisions") continue;
             World world = base_world();
             replace(world, other);
             EXPECT_NE(hash_of(world), hash_of(plain)) << name;

@@ -138,7 +138,9 @@ TEST(ModelCodec, WhatIsSharedAndWhatIsMeasuredAreThere) {
     EXPECT_EQ(copy.types.size(), model->types.size()) << "two cars are of one type";
     EXPECT_EQ(copy.find_robot("other_car"), model->find_robot("other_car"));
     const RobotType& mixed = copy.type_of(*copy.find_robot("mixed"));
-    const std::vector<SensorSpec> sensors = sensors_of_all_kinds();
+    std::vector<SensorSpec> sensors = sensors_of_all_kinds();
+    for (SensorSpec& sensor : sensors)  // it names a collision that its link does not have: all count
+        if (auto* contact = std::get_if<ContactSpec>(&sensor.parameters)) *contact = {};
     ASSERT_EQ(mixed.sensors.size(), sensors.size());
     for (std::size_t i = 0; i < sensors.size(); ++i)
         EXPECT_EQ(mixed.sensors[i].spec.parameters, sensors[i].parameters) << i;

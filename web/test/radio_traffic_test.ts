@@ -1,7 +1,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { LINK_SHOWN_S, PULSE_S, quality, RadioTraffic } from "../src/model/radio_traffic";
-import type { RadioReport } from "../src/wire/messages";
+import type { RadioReport } from "../src/wire/radio";
 
 const link = (from: number, to: number) => ({
     from,

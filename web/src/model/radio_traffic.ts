@@ -1,6 +1,6 @@
 // Who heard whom by radio lately: the links of the last reports, by age. They age with the clock of the wall while the
 // simulated time that is drawn moves, so a paused picture keeps its links.
-import type { RadioLinkReport, RadioReport, RadioSenderReport } from "../wire/messages";
+import type { RadioLinkReport, RadioReport, RadioSenderReport } from "../wire/radio";
 
 /** s, after which a link is no longer drawn. */
 export const LINK_SHOWN_S = 1.2;

@@ -7,7 +7,8 @@ import { transform } from "../kinematics/pose";
 import { LINK_SHOWN_S, PULSE_S, quality, RadioTraffic } from "../model/radio_traffic";
 import type { ViewerState, World } from "../model/viewer_state";
 import type { Stage } from "../view/stage";
-import type { RadioLinkReport, Triple } from "../wire/messages";
+import type { Triple } from "../wire/messages";
+import type { RadioLinkReport } from "../wire/radio";
 import { LineField } from "./line_field";
 
 const WEAK = new THREE.Color(0xff5d4d),

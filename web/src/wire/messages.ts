@@ -3,6 +3,7 @@
 import type { BondReport, ChannelInfo, ChannelReport, Extras, FlowInfo, OnboardAction, SurfaceReport } from "./onboard";
 import type { LightInfo, LookInfo } from "./look";
 import type { StepProfile } from "./profile";
+import type { RadioReport } from "./radio";
 import type { Roles } from "./roles";
 import type { PreviewInfo, Timeline } from "./timeline";
 import type { Visual } from "./visual";
@@ -220,33 +221,6 @@ export interface RobotReport {
     surfaces?: SurfaceReport[];
     bonds?: BondReport[];
     held_by?: BondReport[];
-}
-
-/** Messages that one radio heard of another since the last report. */
-export interface RadioLinkReport {
-    from: number;
-    /** Radios, by their number among the sensors of a robot: of the sender, and of the receiver. */
-    antenna: number;
-    to: number;
-    sensor: number;
-    messages: number;
-    /** dBm of the last one at the receiver; dB of that above its noise floor; s, when it arrived. */
-    strength: number | null;
-    margin: number | null;
-    time: number;
-}
-
-export interface RadioSenderReport {
-    robot: number;
-    sensor: number;
-    messages: number;
-}
-
-export interface RadioReport {
-    links: RadioLinkReport[];
-    senders: RadioSenderReport[];
-    /** false: some radios had no turn. */
-    all: boolean;
 }
 
 export interface OverlayReport {
