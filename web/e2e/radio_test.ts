@@ -17,7 +17,7 @@ function bars(page: Page): Promise<number> {
     return page.evaluate(() => {
         let count = 0;
         window.roboss.stage.overlays.traverse((one: Object3D) => {
-            if (one.name === "radio links" && one.parent?.visible) count += (one as InstancedMesh).count;
+            if (one.name === "radio bars" && one.parent?.visible) count += (one as InstancedMesh).count;
         });
         return count;
     });

@@ -9,6 +9,7 @@ import type { ViewerState, World } from "../model/viewer_state";
 import type { Stage } from "../view/stage";
 import type { Triple } from "../wire/messages";
 import type { RadioLinkReport } from "../wire/radio";
+import { BarField } from "./bar_field";
 import { LineField } from "./line_field";
 
 const WEAK = new THREE.Color(0xff5d4d),
@@ -20,49 +21,21 @@ const RADIUS_OF_DISTANCE = 0.0032;
 const RING_OF_DISTANCE = 0.05;
 const BEAD = 2.2;
 const RING_STEPS = 32;
-const UP = new THREE.Vector3(0, 1, 0);
 
 export class RadioMarks {
-    private readonly group = new THREE.Group();
+    private readonly bars = new BarField("radio", 0.85);
     private readonly rings = new LineField(0.9);
     private readonly traffic = new RadioTraffic();
     private world: World | null = null;
-    private capacity = 64;
-    private bars: THREE.InstancedMesh;
-    private beads: THREE.InstancedMesh;
-    private readonly material = new THREE.MeshBasicMaterial({
-        toneMapped: false,
-        depthTest: false,
-        depthWrite: false,
-        transparent: true,
-        opacity: 0.85,
-    });
-    private readonly bar = new THREE.CylinderGeometry(1, 1, 1, 8);
-    private readonly bead = new THREE.SphereGeometry(1, 12, 8);
 
     constructor(
         private readonly stage: Stage,
         private readonly state: ViewerState,
     ) {
-        [this.bars, this.beads] = this.make();
-        stage.overlays.add(this.group, this.rings.lines);
+        stage.overlays.add(this.bars.group, this.rings.lines);
         state.overlayReport.follow((report) => {
             if (report?.radio !== undefined) this.traffic.take(report.radio);
         });
-    }
-
-    private make(): [THREE.InstancedMesh, THREE.InstancedMesh] {
-        for (const mesh of [this.bars, this.beads]) mesh?.dispose();
-        this.group.clear();
-        const made = [this.bar, this.bead].map((geometry) => {
-            const mesh = new THREE.InstancedMesh(geometry, this.material, this.capacity);
-            mesh.name = geometry === this.bar ? "radio links" : "radio messages";
-            mesh.frustumCulled = false;
-            mesh.renderOrder = 4;
-            this.group.add(mesh);
-            return mesh;
-        });
-        return [made[0], made[1]];
     }
 
     update(world: World | null, now: number): void {
@@ -70,56 +43,29 @@ export class RadioMarks {
         if (!on || world !== this.world) this.traffic.forget();
         this.world = world;
         this.traffic.advance(now, this.state.drawnTime.value);
-        this.group.visible = this.rings.lines.visible = on && world !== null && !this.traffic.quiet;
-        if (world === null || !this.group.visible) return;
+        this.bars.group.visible = this.rings.lines.visible = on && world !== null && !this.traffic.quiet;
+        if (world === null || !this.bars.group.visible) return;
         this.drawLinks(world);
         this.drawSenders(world);
     }
 
     private drawLinks(world: World): void {
-        const links = [...this.traffic.links];
-        if (links.length > this.capacity) {
-            while (this.capacity < links.length) this.capacity *= 2;
-            [this.bars, this.beads] = this.make();
-        }
-        let bars = 0,
-            beads = 0;
-        for (const { what, age } of links) {
+        this.bars.begin();
+        for (const { what, age } of this.traffic.links) {
             const a = this.antenna(world, what.from, what.antenna),
                 b = this.antenna(world, what.to, what.sensor);
             if (a === null || b === null) continue;
             const colour = this.colourOf(what),
                 radius = this.stage.camera.position.distanceTo(a.clone().lerp(b, 0.5)) * RADIUS_OF_DISTANCE;
-            this.drawBar(bars++, a, b, radius * (1 - (0.7 * age) / LINK_SHOWN_S), colour);
-            if (age < PULSE_S) this.drawBead(beads++, a.lerp(b, age / PULSE_S), radius * BEAD, colour);
+            this.bars.bar(a, b, radius * (1 - (0.7 * age) / LINK_SHOWN_S), colour);
+            if (age < PULSE_S) this.bars.ball(a.lerp(b, age / PULSE_S), radius * BEAD, colour);
         }
-        this.bars.count = bars;
-        this.beads.count = beads;
-        for (const mesh of [this.bars, this.beads]) {
-            mesh.instanceMatrix.needsUpdate = true;
-            if (mesh.instanceColor !== null) mesh.instanceColor.needsUpdate = true;
-        }
+        this.bars.end();
     }
 
     private colourOf(link: RadioLinkReport): THREE.Color {
         const chosen = [link.from, link.to].includes(this.state.selected.value ?? -1);
         return chosen ? CHOSEN : WEAK.clone().lerp(GOOD, quality(link.margin));
-    }
-
-    private drawBar(k: number, a: THREE.Vector3, b: THREE.Vector3, radius: number, colour: THREE.Color): void {
-        const way = b.clone().sub(a),
-            length = way.length(),
-            turn = new THREE.Quaternion();
-        if (length > 1e-9) turn.setFromUnitVectors(UP, way.divideScalar(length));
-        const middle = a.clone().lerp(b, 0.5);
-        this.bars.setMatrixAt(k, new THREE.Matrix4().compose(middle, turn, new THREE.Vector3(radius, length, radius)));
-        this.bars.setColorAt(k, colour);
-    }
-
-    private drawBead(k: number, at: THREE.Vector3, radius: number, colour: THREE.Color): void {
-        const size = new THREE.Vector3().setScalar(radius);
-        this.beads.setMatrixAt(k, new THREE.Matrix4().compose(at, new THREE.Quaternion(), size));
-        this.beads.setColorAt(k, colour);
     }
 
     private drawSenders(world: World): void {
