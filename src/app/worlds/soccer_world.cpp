@@ -26,8 +26,8 @@ constexpr const char* kWhite = "0.92 0.92 0.90";
 // half a millimetre of play, so it rests on the wheels. Inertias of the solid box and cylinders. Motors of
 // 0.03 N m push with 2.7 N, 5.1 m/s2 (the wheels' inertia counts as 30 g). The rear slider then bears 5.1
 // m/s2 * 0.5 kg * 2 cm / 3.4 cm = 1.5 N of the 4.9 N, so soft tyres (friction 1.2) still grip with 4.1 N: it
-// does not skid. The tyres are round (ellipsoids): with the two contact points of a cylinder on each side, a
-// robot that accelerates begins to turn.
+// does not skid. The tyres are round (ellipsoids): of the two contact points of a cylinder one may bear all
+// (docs/physics.md, contact reports), and a robot that accelerates begins to turn.
 constexpr const char* kChassis = R"(      <link name="chassis">
         <inertial>
           <pose>0 0 0.02 0 0 0</pose>
