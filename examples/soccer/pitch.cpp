@@ -62,11 +62,6 @@ double half_length_s() {
     return seconds;
 }
 
-double side_of(Team team, double time_s) {
-    const double first = team == Team::kBlue ? 1 : -1;
-    return time_s < half_length_s() ? first : -first;
-}
-
 std::optional<Camera> Camera::from_environment() {
     const char* text = std::getenv("ROBOSS_SOCCER_CAMERA");
     if (text == nullptr) return Camera{};

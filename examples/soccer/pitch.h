@@ -43,7 +43,7 @@ struct Pitch {
     std::array<std::vector<roboss::RobotId>, 2> robots;  // by team and number
     roboss::RobotId ball;
 
-    /// @throws std::runtime_error where the world is none of `roboss-world soccer`.
+    /// @throws std::runtime_error if the world was not made by `roboss-world soccer`.
     static Pitch of(const roboss::Client& client);
     const std::vector<roboss::RobotId>& of_team(Team team) const {
         return robots[static_cast<std::size_t>(team)];
@@ -53,14 +53,16 @@ struct Pitch {
 /// Length of a half, s: ROBOSS_SOCCER_HALF, or 300. All programs of a match must have the same.
 double half_length_s();
 
-/// +1 while the team plays towards +x, -1 after the change of ends.
-double side_of(Team team, double time_s);
+/// +1 if the team plays towards +x in this half, else -1.
+inline double side_of(Team team, bool second_half) {
+    return (team == Team::kBlue) != second_half ? 1 : -1;
+}
 
 /// What an overhead camera adds to the truth: ROBOSS_SOCCER_CAMERA="2 1 33" is 2 mm and 1 degree of noise
 /// (standard deviation) and images that are 33 ms old. All 0: teams see true states.
 struct Camera {
     double noise_m = 0, noise_rad = 0, delay_s = 0;
-    /// Nothing if the variable is set to anything else.
+    /// std::nullopt if the variable is set to anything else.
     static std::optional<Camera> from_environment();
 };
 

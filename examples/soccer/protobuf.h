@@ -1,4 +1,4 @@
-// The bytes of Protocol Buffers, as far as small messages of numbers need them
+// The wire format of Protocol Buffers for small messages of numbers
 // (https://protobuf.dev/programming-guides/encoding): a reader of fields and a writer. No library and no
 // generated code, so that a team's protocol costs no dependency.
 #pragma once
@@ -26,7 +26,7 @@ struct Field {
     }
 };
 
-/// Reads one field after the other. Fields that nobody knows are read like others, and can be ignored.
+/// Reads one field after the other. Unknown fields are returned like others: skip them.
 class Reader {
   public:
     explicit Reader(std::string_view bytes) : rest_(bytes) {}

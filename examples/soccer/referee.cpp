@@ -13,10 +13,6 @@ constexpr double kStandstillRoom = 0.05;  // m, a ball that stays within has not
 constexpr double kCrowd = 1;              // s that a second defender may be in the goal area with the ball
 constexpr double kFreeBallRoom = 0.25;    // m, from the ball to each of the two robots
 
-bool in_goal_area(const Field& field, double x, double y) {
-    return std::fabs(x) > field.half_length - field.goal_area_depth && std::fabs(y) < field.goal_area_half;
-}
-
 }  // namespace
 
 const char* name_of(Call call) {

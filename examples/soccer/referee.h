@@ -1,5 +1,5 @@
-// The referee as a pure state machine: it is told where the ball and the robots are, and says what happened
-// and where everything has to be put. The laws are those of FIRA MiroSot (docs/soccer.md says which).
+// The referee as a pure state machine: it takes the positions of the ball and the robots, and returns its
+// decisions and the positions for a restart. The rules are those of FIRA MiroSot (docs/soccer.md lists them).
 #pragma once
 
 #include <optional>
@@ -13,7 +13,7 @@ namespace soccer {
 enum class Call : int {
     kKickOff,   // at the start of a half, and after a goal for the other team
     kGoal,      // counted; a kick-off follows at once
-    kFreeBall,  // nobody moved the ball for ten seconds, or it left the field
+    kFreeBall,  // the ball did not move for ten seconds, or it left the field
     kPenalty,   // against a team whose goalkeeper keeps the ball in its goal area, or is not alone there
     kHalfTime,  // the teams change ends; a kick-off follows at once
     kFullTime,
@@ -70,9 +70,7 @@ class Referee {
     void look_for_standstill(const Scene& scene, std::vector<Decision>& decisions);
     bool look_at_goal_area(const Scene& scene, std::vector<Decision>& decisions);
     void begin_play(const Scene& scene, double ball_x, double ball_y);
-    bool is_second_half() const { return state.phase == MatchState::Phase::kSecondHalf; }
-    /// +1 if the team plays towards +x.
-    double side(Team team) const { return (team == Team::kBlue) != is_second_half() ? 1 : -1; }
+    double side(Team team) const { return side_of(team, state.phase == MatchState::Phase::kSecondHalf); }
     Team defender_at(double x) const { return side(Team::kBlue) * x < 0 ? Team::kBlue : Team::kYellow; }
     Restart kick_off(Team team) const;
     Restart free_ball(const Scene& scene) const;

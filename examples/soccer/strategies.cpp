@@ -6,6 +6,10 @@
 namespace soccer {
 namespace {
 
+bool is_at_own_goal(const View& view) {
+    return view.ball.x < 0 && in_goal_area(view.field, view.ball.x, view.ball.y);
+}
+
 /// On the goal line, where a ball that comes would cross it.
 WheelSpeeds keep_goal(const View& view, double top_speed) {
     const Field& field = view.field;
@@ -15,10 +19,8 @@ WheelSpeeds keep_goal(const View& view, double top_speed) {
     if (ball.vx < -0.2) y = ball.y + (line - ball.x) / ball.vx * ball.vy;
     y = std::clamp(y, 0.02 - field.half_goal, field.half_goal - 0.02);
     // It clears a slow ball before its goal.
-    const bool near =
-        ball.x < -field.half_length + field.goal_area_depth && std::fabs(ball.y) < field.goal_area_half;
     const bool slow = ball.vx * ball.vx + ball.vy * ball.vy < 0.25;
-    if (near && slow && ball.x > keeper.x)
+    if (is_at_own_goal(view) && slow && ball.x > keeper.x)
         return drive_to(keeper, {ball.x + 0.1, ball.y + 0.3 * ball.y}, top_speed, 1.0);
     return drive_to(keeper, {line, y}, top_speed);
 }
@@ -57,9 +59,7 @@ std::vector<WheelSpeeds> play_zones(const View& view) {
     for (std::size_t rank = 0; rank < order.size(); ++rank) {
         const std::size_t number = order[rank];
         const Mover& robot = view.own[number];
-        const bool keepers_ball =
-            view.ball.x < -length + field.goal_area_depth && std::fabs(view.ball.y) < field.goal_area_half;
-        if (rank == 0 && !keepers_ball) {
+        if (rank == 0 && !is_at_own_goal(view)) {
             speeds[number] = strike(view, number, {length + 0.05, 0}, 2.0);
             continue;
         }

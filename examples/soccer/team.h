@@ -13,8 +13,8 @@ using Strategy = std::vector<WheelSpeeds> (*)(const View&);
 template <Team kTeam, Strategy kStrategy>
 class TeamProgram final : public roboss::ControlProgram {
   public:
-    /// An image that is old when it arrives is the same as orders that take effect later. A camera that is
-    /// none is reported by start().
+    /// An image that is old when it arrives is the same as orders that take effect later. start() reports a
+    /// variable that describes no camera.
     roboss::ControlOptions options() const override {
         const auto camera = Camera::from_environment();
         return {kFrame, kFrame + (camera ? camera->delay_s : 0.0), true};
@@ -28,13 +28,14 @@ class TeamProgram final : public roboss::ControlProgram {
                 "ROBOSS_SOCCER_CAMERA is no camera\n"
                 "  remedy: give noise in mm and degrees, and a delay in ms: \"2 1 33\"");
         camera_ = *camera;
-        end_s_ = 2 * half_length_s();
+        half_s_ = half_length_s();
     }
 
     void control(roboss::Client& client) override {
         std::vector<WheelSpeeds> speeds(pitch_.of_team(kTeam).size());
-        if (client.time_s() < end_s_)
-            speeds = kStrategy(see(client, pitch_, kTeam, camera_, side_of(kTeam, client.time_s())));
+        const double time_s = client.time_s();
+        if (time_s < 2 * half_s_)
+            speeds = kStrategy(see(client, pitch_, kTeam, camera_, side_of(kTeam, time_s >= half_s_)));
         for (std::size_t i = 0; i < speeds.size(); ++i) {
             const roboss::RobotId robot = pitch_.of_team(kTeam)[i];
             // Refused only if the Model changed under us; the next frame tries again.
@@ -48,7 +49,7 @@ class TeamProgram final : public roboss::ControlProgram {
   private:
     Pitch pitch_;
     Camera camera_;
-    double end_s_ = 0;
+    double half_s_ = 0;  // length of a half
 };
 
 }  // namespace soccer

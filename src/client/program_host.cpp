@@ -20,7 +20,7 @@ Result<ControlOptions> options_of(const ControlProgram& program, const std::stri
     } catch (...) {
     }
     return Error{"options() of control program '" + name + "' threw: " + why,
-                 "mend it, or do in start() what may fail", "client-failed"};
+                 "fix it, or do in start() what may fail", "client-failed"};
 }
 
 }  // namespace

@@ -1,9 +1,7 @@
 // See radio_links.h.
 #include "gateway/radio_links.h"
 
-#include <algorithm>
-
-#include "sensor_kinds/radio.h"
+#include "sensors/radio_link.h"
 
 namespace roboss {
 namespace {
@@ -11,10 +9,8 @@ namespace {
 /// The radio of `robot` that a radio with this spec hears; its first radio if several are on the channel.
 std::uint32_t antenna_of(const Model& model, RobotId robot, const RadioSpec& receiver) {
     const RobotType& type = model.type_of(robot);
-    for (const std::uint32_t sensor : type.radios) {
-        const RadioSpec& spec = *type.sensors[sensor].spec.as<RadioSpec>();
-        if (spec.channel == receiver.channel && spec.broker == receiver.broker) return sensor;
-    }
+    for (const std::uint32_t sensor : type.radios)
+        if (share_a_channel(*type.sensors[sensor].spec.as<RadioSpec>(), receiver)) return sensor;
     return type.radios.empty() ? 0 : type.radios.front();
 }
 

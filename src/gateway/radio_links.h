@@ -48,8 +48,8 @@ class RadioLinks {
     struct Radio {
         RobotId robot;
         std::uint32_t sensor = 0, index = 0;  // of RobotType::sensors, of RobotState::radios
-        Tick heard = -1;                      // the messages that arrived until then are told
-        std::uint64_t sent = 0;               // transmissions that are told
+        Tick heard = -1;                      // the messages that arrived until then are reported
+        std::uint64_t sent = 0;               // transmissions that are reported
     };
     void begin(const Model& model);
     void hear(const Model& model, Radio& radio, SensorSources& sources, Tick tick, std::uint64_t seed,

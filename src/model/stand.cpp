@@ -74,8 +74,9 @@ RobotType stand_of(const ModelSpec& spec, ShapeStore& shapes, Diagnostics& diagn
         const Transform X_BL = to_transform(link.X_ML);
         type.links.push_back(to_link(link, -1, X_BL));
         std::vector<std::size_t> counts;  // of shapes, by collision
-        for (const CollisionSpec& collision : link.collisions)
-            counts.push_back(shapes.shapes_of(collision, true).size());
+        if (!link.sensors.empty())
+            for (const CollisionSpec& collision : link.collisions)
+                counts.push_back(shapes.shapes_of(collision, true).size());
         for (const SensorSpec& sensor : link.sensors)
             type.sensors.push_back({with_chosen_shapes(sensor, link, counts, diagnostics), id});
     }

@@ -90,8 +90,7 @@ class Receiver {
             for (std::uint32_t k = 0; k < type.radios.size(); ++k) {
                 const Sender sender{id, k, type.sensors[type.radios[k]], state};
                 const bool is_other_own = id == q_.robot && type.radios[k] != q_.sensor;
-                const RadioSpec& spec = sender.spec();
-                if (is_other_own || spec.channel != spec_.channel || spec.broker != spec_.broker) continue;
+                if (is_other_own || !share_a_channel(sender.spec(), spec_)) continue;
                 if (!sender.sent().sent.empty()) visit(sender);
             }
         }

@@ -14,6 +14,10 @@ constexpr double kSqrtPi = 1.77245385090551602730;
 
 }  // namespace
 
+bool share_a_channel(const RadioSpec& a, const RadioSpec& b) {
+    return a.channel == b.channel && a.broker == b.broker;
+}
+
 double radio_log10(double x) {
     return fixed_log(x) / kLn10;
 }

@@ -2,8 +2,12 @@
 #pragma once
 
 #include "core/types.h"
+#include "sensor_kinds/radio.h"
 
 namespace roboss {
+
+/// Whether they hear each other, if near enough.
+bool share_a_channel(const RadioSpec& a, const RadioSpec& b);
 
 /// log10, of a positive normal number.
 double radio_log10(double x);

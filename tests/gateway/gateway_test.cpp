@@ -119,7 +119,7 @@ TEST_F(Viewed, OnlyWhatMovesIsSentAgain) {
     ASSERT_TRUE(page.until([&] { return page.robots().size() == model->robots.size(); }));
     const std::uint64_t whole = page.state_bytes(), states = page.states();
     EXPECT_TRUE(page.until([&] { return page.states() > states + 1; }))
-        << "a resting world says that it rests now and then";
+        << "a resting world sends empty States now and then";
     EXPECT_EQ(page.state_bytes() - whole, viewer_protocol::kStateBytes * (page.states() - states));
     page.send({{"type", "whole"}});
     EXPECT_TRUE(page.until([&] { return page.last_was_whole(); }));

@@ -9,12 +9,11 @@ from dataclasses import dataclass, field
 from typing import Optional
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ..errors import ArgumentError
+from ..robots import Floats
 from . import iso9283
 
-Floats = NDArray[np.float64]
 _PLACES = 6  # decimals, m, to which commanded poses are the same
 _PATH_POINTS = 50
 _REST_SHARE = 0.2  # end of a rest over which the attained pose is averaged

@@ -7,25 +7,23 @@ repeats to the last bit.
 from __future__ import annotations
 
 import os
-import warnings
 import xml.etree.ElementTree as xml
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Callable, Iterator, Optional, Union
 
 import numpy as np
-from numpy.typing import NDArray
 
-from ..errors import ArgumentError, WorldWarning
+from ..errors import ArgumentError
 from ..kinematics import RobotModel
+from ..robots import Floats
 from ..simulation import Simulation
 from ..trajectories import ctraj, jtraj
-from ..world import World, load
+from ..world import World
 from .iso9283 import compliance, cube_poses
-from .recorder import opened_world
+from .recorder import opened_world, quietly_loaded
 from .recording import Column, Recording
 
-Floats = NDArray[np.float64]
 _ORDER = (4, 3, 2, 1, 0)  # P5 P4 P3 P2 P1: a cycle of 7.2
 _SIDES = (1.0, 0.63, 0.4, 0.25)  # m, of cubes that the standard has
 _LOAD = "roboss_load"  # link at the tool's origin
@@ -103,9 +101,10 @@ class ArmDriver:
     def recordings(self, progress: Callable[[str, float], None] = lambda name, share: None) -> Iterator[tuple[str, Recording]]:
         """(name of the condition, recording with ROBOT.LINK.pose, ROBOT.LINK.command and the joints) of each."""
         for load in self.test.loads:
+            world = self._loaded(load)
             for speed in self.test.speeds:
                 name = f"{load * self.test.payload:g} kg, {100 * speed:g} % of speed"
-                yield name, self._run(load, speed, lambda share, n=name: progress(n, share))
+                yield name, self._run(world, load, speed, lambda share, n=name: progress(n, share))
 
     def stiffness(self, force: float, steps: int = 10) -> tuple[Floats, Floats, Floats]:
         """Static compliance at P1 with the rated load: (k,) forces up to `force` in N, (3, k) displacements in m along
@@ -134,8 +133,8 @@ class ArmDriver:
             self._lines[first, second] = knots, q
         return self._lines[first, second]
 
-    def _run(self, load: float, speed: float, progress: Callable[[float], None]) -> Recording:
-        servo = _Servo(self, Simulation(self._loaded(load)), self.cube.q[0])
+    def _run(self, world: World, load: float, speed: float, progress: Callable[[float], None]) -> Recording:
+        servo = _Servo(self, Simulation(world), self.cube.q[0])
         servo.follow(self.cube.q[:1].repeat(servo.ticks(0.5), axis=0))
         servo.begin()
         at = 0
@@ -153,7 +152,7 @@ class ArmDriver:
         """The world with a load at the tool."""
         mass = max(1e-6, load * self.test.payload)
         options = {"search_paths": [str(Path(self.test.world).parent)], **self.test.load_options}
-        return opened_text(with_load(Path(self.test.world).read_text(), self.robot, self.link, mass), options)
+        return quietly_loaded(with_load(Path(self.test.world).read_text(), self.robot, self.link, mass), **options)
 
     def _cube(self) -> Cube:
         test = self.test
@@ -306,13 +305,6 @@ def with_load(text: str, robot: str, link: str, mass: float) -> str:
     model.append(xml.fromstring(body))
     model.append(xml.fromstring(joint))
     return xml.tostring(root, encoding="unicode")
-
-
-def opened_text(text: str, options: dict) -> World:
-    """A world from its text, without warnings."""
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", WorldWarning)
-        return load(text, **options)
 
 
 def _only_arm(world: World) -> str:

@@ -10,15 +10,14 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
-from numpy.typing import NDArray
 
+from ..robots import Floats
 from .recording import Recording
 
-Floats = NDArray[np.float64]
 _INK = "#010203"  # becomes the colour of the page's text
-_COLORS = ("#2a7fde", "#e06c1f", "#2f9e58", "#b04fc4", "#c9a100", "#14a3a8", "#d1406b", "#7a6a58")
+COLORS = ("#2a7fde", "#e06c1f", "#2f9e58", "#b04fc4", "#c9a100", "#14a3a8", "#d1406b", "#7a6a58")
 _STYLE = {"svg.fonttype": "none", "svg.hashsalt": "roboss", "font.size": 9, "axes.spines.top": False,
-          "axes.spines.right": False, "axes.prop_cycle": matplotlib.cycler(color=_COLORS), "lines.linewidth": 1.2,
+          "axes.spines.right": False, "axes.prop_cycle": matplotlib.cycler(color=COLORS), "lines.linewidth": 1.2,
           "font.family": "sans-serif", "legend.frameon": False, "axes.grid": True, "grid.alpha": 0.25, "grid.linewidth": 0.6,
           "figure.constrained_layout.use": True, "axes.axisbelow": True}
 _ON_PAGE = {"text.color": _INK, "axes.labelcolor": _INK, "axes.edgecolor": _INK, "xtick.color": _INK, "ytick.color": _INK,
@@ -80,7 +79,7 @@ def on_page(draw, width: float = 7.0, height: float = 3.0, columns: int = 1) -> 
 
 def scatter(axes: Axes, xy: Floats, radius: float, names: tuple[str, str], number: int = 0, label: str = "") -> None:
     """Attained positions about the commanded one at the origin, with the circle of repeatability about their mean."""
-    color = _COLORS[number % len(_COLORS)]
+    color = COLORS[number % len(COLORS)]
     axes.plot(*xy.T, ".", color=color, markersize=4, label=label)
     turn = np.linspace(0, 2 * np.pi, 100)
     middle = xy.mean(axis=0)

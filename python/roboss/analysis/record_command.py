@@ -9,8 +9,9 @@ from typing import Any
 
 from ..errors import ArgumentError
 from .command import Parser, Progress
-from .recorder import is_journal, journal_of_run, record
+from .recorder import is_journal, journal_of_run, opened, record
 from .recording import SUFFIXES, write
+from .variables import Variables
 
 _EXAMPLES = """Variables are named ROBOT.WHAT; * ? [...] match many, up to the next dot, and ** beyond dots. --list shows all that a source has, with units.
   car_3.pose  car_3.x  car_3.speed  car_3.energy  car_3.contacts      of a robot
@@ -87,10 +88,8 @@ def run(options: Any) -> Any:
 
 
 def _list(options: Any) -> Any:
-    from .recorder import _opened
-    from .variables import Variables
     until = options.until if options.until is not None else None if is_journal(options.source) else 0.0
-    run_of, _, _ = _opened(options.source, options.start, until, options.branch)
+    run_of, _, _ = opened(options.source, options.start, until, options.branch)
     columns = Variables(run_of, options.variables or None).columns
     found: dict[str, list] = {}
     for column in columns:

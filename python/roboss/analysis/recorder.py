@@ -50,7 +50,7 @@ def record(source: Source, patterns: Union[str, Iterable[str], None] = None, *, 
     """
     if not isinstance(source, (World, Simulation, Journal)) and Path(source).suffix in SUFFIXES:
         return _part(read(source), patterns, start, until)
-    run, last, ending = _opened(source, start, until, branch)
+    run, last, ending = opened(source, start, until, branch)
     every_ticks = max(1, round(every / run.dt))
     variables = Variables(run, patterns)
     times, rows = [], []
@@ -106,13 +106,18 @@ def opened_world(path: Union[str, os.PathLike], **options) -> World:
     """load(), without its warnings: a recording is not the place for them (`roboss check` has them)."""
     if not Path(path).is_file():
         raise ArgumentError(f"there is no file '{os.fspath(path)}'", "give a world, a journal or a recording", "no-file")
+    return quietly_loaded(path, **options)
+
+
+def quietly_loaded(world: Union[str, os.PathLike], **options) -> World:
+    """load() of a path or of a text, without its warnings."""
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", WorldWarning)
-        return load(path, **options)
+        return load(world, **options)
 
 
-def _opened(source: Source, start: Optional[float], until: Optional[float],
-            branch: Optional[int]) -> tuple[Run, float, str]:
+def opened(source: Source, start: Optional[float], until: Optional[float],
+           branch: Optional[int]) -> tuple[Run, float, str]:
     """The run at its first sample, the time of the last, and what it is."""
     if isinstance(source, Journal) or (not isinstance(source, (World, Simulation)) and is_journal(source)):
         journal = source if isinstance(source, Journal) else Journal(source)

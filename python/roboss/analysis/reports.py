@@ -4,14 +4,13 @@ from __future__ import annotations
 from typing import Optional, Sequence
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ..robots import Floats
 from . import pictures, vehicle, walker
 from .arm import Condition
 from .recording import Recording
 from .report import Report
 
-Floats = NDArray[np.float64]
 _MM, _DEG = 1e3, 180 / np.pi
 
 
@@ -170,7 +169,7 @@ def _drives(axes, circle: Recording, stop: Recording, weave: Recording) -> None:
 
 def _squares(axes, squares: Sequence[Recording]) -> None:
     for number, square in enumerate(squares):
-        axes.plot(*square["xy"].T, linewidth=0.8, color=pictures._COLORS[number * 2 // len(squares)])
+        axes.plot(*square["xy"].T, linewidth=0.8, color=pictures.COLORS[number * 2 // len(squares)])
     axes.set_aspect("equal", adjustable="datalim")
     axes.set_xlabel("x [m]")
     axes.set_ylabel("y [m]")
@@ -211,7 +210,7 @@ def _demand(axes, demands: dict[str, tuple[walker.JointDemand, str]]) -> None:
     places = np.arange(len(names))[::-1]
     axes.barh(places, [d.effort_rms for d in scores], 0.6)
     axes.hlines(places, 0, [d.effort_quantiles[2] for d in scores], linewidth=1)
-    axes.plot([d.effort_peak for d in scores], places, ".", color=pictures._COLORS[1])
+    axes.plot([d.effort_peak for d in scores], places, ".", color=pictures.COLORS[1])
     axes.set_yticks(places, names, fontsize=7)
     axes.set_ylim(-0.8, len(names) - 0.2)
     axes.set_xlabel("torque [N m]")

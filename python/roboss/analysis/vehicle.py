@@ -7,11 +7,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ..errors import ArgumentError
-
-Floats = NDArray[np.float64]
+from ..robots import Floats
 
 
 @dataclass(frozen=True)

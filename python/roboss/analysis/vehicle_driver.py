@@ -6,16 +6,15 @@ from dataclasses import dataclass, field
 from typing import Callable, Optional, Sequence, Union
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ..errors import ArgumentError
+from ..robots import Floats
 from ..simulation import Simulation
 from . import vehicle
 from .recorder import opened_world
 from .recording import Column, Recording
 from .variables import yaw
 
-Floats = NDArray[np.float64]
 _CONTROL = 0.02  # s, between two orders
 
 
@@ -67,6 +66,7 @@ class VehicleDriver:
             raise ArgumentError(f"'{self.robot}' has no joints with 'left' and 'right' in their names",
                                 "name its wheels (--left, --right)", "no-wheels")
         self._columns = [[self.vehicle.joints.index(name) for name in side] for side in (self.left, self.right)]
+        self._period = max(1, round(_CONTROL / self.sim.dt))  # ticks between two orders
         self._start = self.sim.save()
         self.wheel_radius: float = self._rolled()
         self.contact_track: float = self._width()
@@ -120,7 +120,7 @@ class VehicleDriver:
                 left = max(0.05, min(1.0, 4 * (goal - done)))  # slower towards the end
                 speed, rate = (test.speed * left, 0.0) if is_side else (0.0, way * left)
                 self._order(speed, rate)
-                self.sim.step(max(1, round(_CONTROL / self.sim.dt)))
+                self.sim.step(self._period)
                 now = self._wheels()
                 moved = (now - before) * radius
                 before = now
@@ -139,7 +139,7 @@ class VehicleDriver:
             speed, rate = command(self.sim.time - begin)
             self._order(speed, rate)
             rows.append(self._row(speed, rate))
-            self.sim.step(max(1, round(_CONTROL / self.sim.dt)))
+            self.sim.step(self._period)
         return self._recording(rows)
 
     def _reset(self, turned: float) -> None:
@@ -173,10 +173,10 @@ class VehicleDriver:
         return Recording(table[:, 0] - table[0, 0], columns, table[:, 1:], {"source": str(self.test.world)})
 
     def _in_frame(self, start: Floats, xy: Floats) -> Floats:
-        """A position (2,) in the frame of a pose on the ground."""
+        """Positions (..., 2) in the frame of a pose on the ground."""
         angle = -yaw(start[3:])
-        dx, dy = xy - start[:2]
-        return np.array([dx * np.cos(angle) - dy * np.sin(angle), dx * np.sin(angle) + dy * np.cos(angle)])
+        dx, dy = np.moveaxis(xy - start[:2], -1, 0)
+        return np.stack([dx * np.cos(angle) - dy * np.sin(angle), dx * np.sin(angle) + dy * np.cos(angle)], axis=-1)
 
     def _rolled(self) -> float:
         """Effective radius of the wheels, m: distance over angle in a second of straight driving."""
@@ -210,10 +210,7 @@ class VehicleDriver:
     def _width(self) -> float:
         """Distance of the contacts left and right, m: the geometric track."""
         self._reset(0.0)
-        contacts = self.sim.contacts
-        inverse = -yaw(self.vehicle.pose[0, 3:])
-        moved = contacts["position"][:, :2] - self.vehicle.pose[0, :2]
-        aside = moved[:, 0] * np.sin(inverse) + moved[:, 1] * np.cos(inverse)
+        aside = self._in_frame(self.vehicle.pose[0], self.sim.contacts["position"][:, :2])[:, 1]
         if not (aside > 0).any() or not (aside < 0).any():
             raise ArgumentError(f"'{self.robot}' does not stand on wheels left and right", "put it on the ground", "no-ground")
         return float(aside[aside > 0].mean() - aside[aside < 0].mean())

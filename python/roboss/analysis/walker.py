@@ -4,11 +4,10 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ..errors import ArgumentError
+from ..robots import Floats
 
-Floats = NDArray[np.float64]
 QUANTILES = (0.5, 0.95, 0.99)
 
 

@@ -41,11 +41,17 @@ inline constexpr int kGoalBeads = 15;       // goals that it can show
 inline constexpr double kBeadPitch = 0.04;  // m
 inline constexpr double kBeadWay = kGoalBeads * kBeadPitch;
 
-/// The field for teams of so many robots; nullptr: there is none.
+/// The field of the league with so many robots a side; nullptr: no league has that many.
 inline const Field* field_for(int robots) {
     for (const Field& field : kFields)
         if (field.robots == robots) return &field;
     return nullptr;
+}
+
+/// Whether a point is in a goal area: in that of the side of -x or of +x.
+inline bool in_goal_area(const Field& field, double x, double y) {
+    const double line = field.half_length - field.goal_area_depth;
+    return (x < -line || x > line) && y < field.goal_area_half && y > -field.goal_area_half;
 }
 
 /// A place and a heading (rad), as a team sees the field that plays towards +x: its own goal is at -x.

@@ -1,5 +1,5 @@
-// The generated soccer field: the committed file is the generator's, and at a kick-off of either team nobody
-// stands in another robot, in a wall, or in the other half.
+// The generated soccer field: the committed file is the generator's, and at a kick-off of either team no
+// robot stands in another one, in a wall, or in the other half.
 #include "app/worlds/soccer_world.h"
 
 #include <gtest/gtest.h>

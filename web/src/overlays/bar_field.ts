@@ -1,67 +1,8 @@
-// Bars between points, and balls, that change each time: begin, add them, end. Seen through whatever is in front; the
-// buffers grow and are never given back.
+// Bars between points, and balls, that change each time: begin, add them, end. Seen through whatever is in front.
 import * as THREE from "three";
+import { Instances } from "./instances";
 
 const UP = new THREE.Vector3(0, 1, 0);
-
-/** Instances of one shape, of size 1. */
-class Instances {
-    mesh: THREE.InstancedMesh;
-    private used = 0;
-    private capacity = 64;
-
-    constructor(
-        private readonly group: THREE.Group,
-        private readonly name: string,
-        private readonly geometry: THREE.BufferGeometry,
-        private readonly material: THREE.Material,
-    ) {
-        this.mesh = this.make();
-    }
-
-    private make(): THREE.InstancedMesh {
-        const mesh = new THREE.InstancedMesh(this.geometry, this.material, this.capacity);
-        mesh.name = this.name;
-        mesh.frustumCulled = false;
-        mesh.renderOrder = 4;
-        mesh.count = 0;
-        this.group.add(mesh);
-        return mesh;
-    }
-
-    begin(): void {
-        this.used = 0;
-    }
-
-    add(matrix: THREE.Matrix4, colour: THREE.Color): void {
-        if (this.used === this.capacity) this.grow();
-        this.mesh.setMatrixAt(this.used, matrix);
-        this.mesh.setColorAt(this.used, colour);
-        ++this.used;
-    }
-
-    private grow(): void {
-        const before = this.mesh,
-            matrix = new THREE.Matrix4(),
-            colour = new THREE.Color();
-        this.capacity *= 2;
-        this.mesh = this.make();
-        for (let k = 0; k < this.used; ++k) {
-            before.getMatrixAt(k, matrix);
-            before.getColorAt(k, colour);
-            this.mesh.setMatrixAt(k, matrix);
-            this.mesh.setColorAt(k, colour);
-        }
-        before.removeFromParent();
-        before.dispose();
-    }
-
-    end(): void {
-        this.mesh.count = this.used;
-        this.mesh.instanceMatrix.needsUpdate = true;
-        if (this.mesh.instanceColor !== null) this.mesh.instanceColor.needsUpdate = true;
-    }
-}
 
 export class BarField {
     readonly group = new THREE.Group();
@@ -78,8 +19,14 @@ export class BarField {
             transparent: true,
             opacity,
         });
-        this.bars = new Instances(this.group, `${name} bars`, new THREE.CylinderGeometry(1, 1, 1, 10), material);
-        this.balls = new Instances(this.group, `${name} balls`, new THREE.SphereGeometry(1, 14, 10), material);
+        this.bars = new Instances(new THREE.CylinderGeometry(1, 1, 1, 10), material);
+        this.balls = new Instances(new THREE.SphereGeometry(1, 14, 10), material);
+        this.bars.mesh.name = `${name} bars`;
+        this.balls.mesh.name = `${name} balls`;
+        for (const { mesh } of [this.bars, this.balls]) {
+            mesh.renderOrder = 4;
+            this.group.add(mesh);
+        }
     }
 
     begin(): void {
