@@ -1,4 +1,4 @@
-"""Examples in docstrings, and the Python in README.md, docs/python.md and docs/learning.md, run as they stand."""
+"""Examples in docstrings, and the Python in README.md and in pages of docs, run as they stand."""
 import doctest
 import re
 
@@ -37,7 +37,7 @@ def test_everything_public_has_a_docstring(module):
                 assert all(member.__doc__ for member in [thing, *described]), name
 
 
-@pytest.mark.parametrize("page", ["README.md", "docs/python.md", "docs/learning.md"])
+@pytest.mark.parametrize("page", ["README.md", "docs/python.md", "docs/learning.md", "docs/older-systems.md"])
 def test_blocks_of_pages_run(page, monkeypatch, tmp_path):
     monkeypatch.chdir(tmp_path)
     (tmp_path / "my_robot.urdf").write_text((REPOSITORY / "examples/first_robot/rover.urdf").read_text())
