@@ -1,7 +1,7 @@
 """The command `roboss`: `python -m roboss run WORLD`, or `roboss run WORLD` where the package is installed.
 
 It is the program of docs/command-line.md, with the same options, output and exit codes: this process becomes that one.
-The commands `record`, `plot` and `analyse` are Python (roboss.analysis) and run here.
+The commands `record`, `plot`, `analyse` and `calibrate` are Python (roboss.analysis) and run here.
 The viewer's page lies beside it, in program/share/roboss/web.
 """
 from __future__ import annotations
@@ -11,7 +11,7 @@ import sys
 from pathlib import Path
 from typing import NoReturn
 
-ANALYSIS = ("record", "plot", "analyse")
+ANALYSIS = ("record", "plot", "analyse", "calibrate")
 PROGRAM = Path(__file__).parent / "program" / "bin" / "roboss"
 
 

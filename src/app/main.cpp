@@ -30,7 +30,7 @@ void group_commands(CLI::App& app) {
     const std::pair<const char*, std::vector<const char*>> groups[] = {
         {"Simulate a world", {"run", "check", "snapshot", "sense", "dataset", "new-client"}},
         {"Control and keep a run", {"control", "runs", "save", "replay", "journal", "diff"}},
-        {"Look into a run", {"record", "plot", "analyse"}},
+        {"Look into a run", {"record", "plot", "analyse", "calibrate"}},
         {"Members of a run on several computers", {"controller", "simulator", "client", "view", "cluster"}}};
     for (const auto& [group, commands] : groups)
         for (const char* command : commands) app.get_subcommand(command)->group(group);

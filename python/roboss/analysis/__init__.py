@@ -5,8 +5,9 @@
     >>> recording["car_3.pose"].shape
     (21, 7)
 
-Formulas are functions of arrays, without a simulation: `iso9283` (arms), `vehicle`, `walker`. docs/analysis.md lists
-them with their sources. Files need the extra `analysis` of the package (pyarrow, mcap, matplotlib).
+Formulas are functions of arrays, without a simulation: `iso9283` (arms), `vehicle`, `walker`; `calibration` fits numbers of
+a world file to recorded runs. docs/analysis.md lists them with their sources. Files need the extra `analysis` of the
+package (pyarrow, mcap, matplotlib, scipy).
 """
 from .arm import Condition, analyse_arm
 from .recorder import record

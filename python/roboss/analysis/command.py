@@ -1,4 +1,4 @@
-"""The commands `roboss record`, `roboss plot` and `roboss analyse` (docs/analysis.md)."""
+"""The commands `roboss record`, `plot`, `analyse` and `calibrate` (docs/analysis.md)."""
 from __future__ import annotations
 
 import argparse
@@ -61,11 +61,12 @@ def complain(message: str, code: str = "", remedy: str = "") -> None:
 
 def main(arguments: Sequence[str]) -> NoReturn:
     """Runs `roboss ARGUMENTS`; the first names the command. Ends the process."""
-    from . import analyse_command, plot_command, record_command
-    command = {"record": record_command, "plot": plot_command, "analyse": analyse_command}[arguments[0]]
+    from . import analyse_command, calibrate_command, plot_command, record_command
+    command = {"record": record_command, "plot": plot_command, "analyse": analyse_command,
+               "calibrate": calibrate_command}[arguments[0]]
     try:
         parser = command.parser()  # names of variables may stand behind options; kinds of reports do not go with that
-        parse = parser.parse_args if command is analyse_command else parser.parse_intermixed_args
+        parse = parser.parse_args if command in (analyse_command, calibrate_command) else parser.parse_intermixed_args
         options = parse(list(arguments[1:]))
         result = command.run(options)
         if options.json:
@@ -80,7 +81,7 @@ def main(arguments: Sequence[str]) -> NoReturn:
         sys.exit(FAILED if error.code in ("run-failed", "not-finite") else BAD_INPUT)
     except ModuleNotFoundError as error:
         complain(f"the Python package '{error.name}' is missing", "no-package",
-                 "pip install pyarrow mcap matplotlib, or roboss with its extra: roboss[analysis]")
+                 "pip install pyarrow mcap matplotlib scipy, or roboss with its extra: roboss[analysis]")
         sys.exit(BAD_INPUT)
     except OSError as error:
         complain(f"'{error.filename}': {error.strerror}", "cannot-write", "choose another file or folder")

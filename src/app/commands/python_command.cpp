@@ -50,7 +50,8 @@ void add_python_commands(CLI::App& app, int& exit_code) {
     const std::pair<const char*, const char*> commands[] = {
         {"record", "writes variables of a world or a journal over time, as Parquet or MCAP (Python package)"},
         {"plot", "draws variables of a recording over time (Python package)"},
-        {"analyse", "makes reports on arms (ISO 9283), vehicles and walkers (Python package)"}};
+        {"analyse", "makes reports on arms (ISO 9283), vehicles and walkers (Python package)"},
+        {"calibrate", "fits numbers of a world file to recorded runs of the real robot (Python package)"}};
     for (const auto& [name, what] : commands) {
         CLI::App* command = app.add_subcommand(name, what);
         command->prefix_command();

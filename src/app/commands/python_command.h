@@ -1,5 +1,5 @@
-// `roboss record`, `plot` and `analyse`: commands of the Python package (python/roboss/analysis). This
-// process becomes Python.
+// `roboss record`, `plot`, `analyse` and `calibrate`: commands of the Python package
+// (python/roboss/analysis). This process becomes Python.
 #pragma once
 
 #include <CLI/CLI.hpp>

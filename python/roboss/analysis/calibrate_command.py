@@ -1,0 +1,84 @@
+"""`roboss calibrate`: numbers of a world file, fitted to recorded runs of the real robot."""
+from __future__ import annotations
+
+import re
+from typing import Any
+
+from ..errors import ArgumentError
+from .command import Parser, Progress
+from .record_command import add_common
+from .recording import read
+
+_EXAMPLES = """Examples:
+  roboss calibrate robot.sdf --run straight.parquet=straight.jsonl --run turn.parquet=turn.jsonl \\
+      --parameter "motor=.//joint[@name='left']/axis/limit/effort,.//joint[@name='right']/axis/limit/effort" \\
+      --parameter "friction=.//collision[@name='tyre']/surface/friction/ode/mu@0.2..2" -o calibrated.sdf
+  roboss calibrate robot.urdf --run a.parquet=a.jsonl --parameter "mass=.//link[@name='base']/inertial/mass/@value"
+
+A parameter is NAME=PATH[,PATH ...][@LOW..HIGH]: elements of the file by ElementTree's subset of XPath; /@ATTRIBUTE at
+the end names an attribute. All of them get the same number. Without bounds: a tenth to ten times the value in the file.
+
+A run is RECORDING[=ORDERS]: a table of `roboss record`, or any Parquet file with a column 'time' (s) and columns named
+as those of `roboss record` (robot.x, robot.yaw, robot.joint.position ...), and the orders that the robot had. The robot
+starts as the file says. Short runs, each ruled by few parameters, tell more than one long run."""
+_RUN = re.compile(r"(.*?\.(?:parquet|mcap))(?:=(.+))?")
+_PARAMETER = re.compile(r"([^=]+)=(.+?)(?:@([^]/'\"]+)\.\.([^]/'\"]+))?")
+
+
+def parser() -> Parser:
+    result = Parser("roboss calibrate", examples=_EXAMPLES,
+                    description="Fits numbers of a world file to recorded runs, with 95 % confidence intervals.")
+    result.add_argument("world", metavar="WORLD", help="the file (SDFormat, URDF) with the numbers to start from")
+    result.add_argument("--run", action="append", required=True, metavar="RECORDING[=ORDERS]", help="a recorded run (may be repeated)")
+    result.add_argument("--parameter", action="append", required=True, metavar="NAME=PATH", help="a number to find (may be repeated)")
+    result.add_argument("--compare", nargs="+", metavar="VARIABLE",
+                        help="patterns of what is compared (default: *.x *.y *.yaw *.*.position)")
+    result.add_argument("--client", action="append", default=[], metavar="LIB", help="a control program, as of `roboss run`")
+    result.add_argument("-o", "--output", metavar="FILE", help="write the world with the numbers found")
+    add_common(result)
+    return result
+
+
+def run(options: Any) -> Any:
+    from .calibration import PATTERNS, Parameter, TestRun, calibrate
+    parameters = []
+    for text in options.parameter:
+        found = _PARAMETER.fullmatch(text)
+        if not found:
+            raise ArgumentError(f"a parameter '{text}'", "write NAME=PATH or NAME=PATH@LOW..HIGH", "bad-value")
+        name, paths, low, high = found.groups()
+        try:
+            bounds = [None if bound is None else float(bound) for bound in (low, high)]
+        except ValueError:
+            raise ArgumentError(f"bounds '{low}..{high}' of parameter '{name}'", "give two numbers", "bad-value") from None
+        parameters.append(Parameter(name.strip(), tuple(_paths(paths)), *bounds))
+    runs = []
+    for text in options.run:
+        found = _RUN.fullmatch(text)
+        if not found:
+            raise ArgumentError(f"a run '{text}'", "write FILE.parquet or FILE.parquet=ORDERS.jsonl", "bad-value")
+        runs.append(TestRun(read(found[1]), found[2]))
+    result = calibrate(options.world, parameters, runs, compare=options.compare or PATTERNS, clients=options.client,
+                       progress=Progress("calibrate", options.quiet))
+    if options.output:
+        with open(options.output, "w", encoding="utf-8") as file:
+            file.write(result.world)
+    if not options.json:
+        width = max(9, *(len(name) for name in result.names))
+        print(f"{'parameter':{width}}  {'file':>10}  {'found':>10}  95 % interval")
+        for n, name in enumerate(result.names):
+            print(f"{name:{width}}  {result.start[n]:10.5g}  {result.values[n]:10.5g}  {result.low[n]:.5g} to {result.high[n]:.5g}")
+        for unit, rms in result.rms.items():
+            print(f"rms difference  {result.rms_before[unit]:.3g} -> {rms:.3g} {unit}")
+        print(f"{result.simulations} simulations" + ("" if result.converged else "; no minimum was found: the last values are shown"))
+        if options.output:
+            print(f"written: {options.output}")
+    return {"parameters": [{"name": name, "start": float(result.start[n]), "value": float(result.values[n]),
+                            "low": float(result.low[n]), "high": float(result.high[n])} for n, name in enumerate(result.names)],
+            "correlation": result.correlation.tolist(), "rms": result.rms, "rms_before": result.rms_before,
+            "simulations": result.simulations, "converged": result.converged, "file": options.output}
+
+
+def _paths(text: str) -> list[str]:
+    """Parts between commas that stand in no brackets."""
+    return [part.strip() for part in re.split(r",(?![^\[]*\])", text)]
