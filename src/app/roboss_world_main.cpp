@@ -5,6 +5,7 @@
 #include <fstream>
 #include <iostream>
 
+#include "app/worlds/cell_world.h"
 #include "app/worlds/city_world.h"
 #include "app/worlds/joint_grid_world.h"
 #include "app/worlds/soccer_world.h"
@@ -60,9 +61,21 @@ int main(int argc, char** argv) {
     make_soccer->add_option("--league", soccer.league, "small: 3 robots a side, middle: 5, large: 11")
         ->check(CLI::IsMember({"small", "middle", "large"}))
         ->capture_default_str();
-    for (CLI::App* make : {make_city, make_grid, make_soccer})
+    roboss::CellOptions cells;
+    CLI::App* make_cells = app.add_subcommand(
+        "cells",
+        "cells with an arm of four axes that moves boxes from one conveyor to another, and the "
+        "sensors for it\n(docs/arm-cell.md)");
+    make_cells->add_option("--cells", cells.cells, "number of cells, 1 to 1000")
+        ->check(CLI::Range(1, 1000))
+        ->capture_default_str();
+    make_cells->add_option("--gripper", cells.gripper, "fingers: they hold by friction; suction: a cup")
+        ->check(CLI::IsMember({"fingers", "suction"}))
+        ->capture_default_str();
+    for (CLI::App* make : {make_city, make_grid, make_soccer, make_cells})
         make->add_option("-o,--output", file, "output file (default, or with -: standard output)");
     CLI11_PARSE(app, argc, argv);
+    if (make_cells->parsed()) return write_world(roboss::cell_sdf(cells), file);
     if (make_soccer->parsed()) return write_world(roboss::soccer_sdf(soccer), file);
     return write_world(make_grid->parsed() ? roboss::joint_grid_sdf(grid) : roboss::city_sdf(city), file);
 }
