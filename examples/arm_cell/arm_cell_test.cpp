@@ -1,0 +1,130 @@
+// The controller of a cell against a scripted plant: boxes that are missed or lost. Then whole cells: boxes
+// are moved and none falls, with equal hashes on one and four Simulators and in a continued run.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "app/worlds/cell_world.h"
+#include "cell.h"
+#include "client/plugin.h"
+#include "sdf/load_world.h"
+#include "simulation/simulation.h"
+
+namespace arm_cell {
+namespace {
+
+/// Joints that follow at once, a box that stands at the light barrier, and a hand whose box may vanish.
+struct Plant {
+    Cell cell{Gripper::kFingers, Cell::rest()};
+    Readings readings;
+    bool box_there = true;  // before the light barrier
+    std::function<bool(const Cell&)> holds = [](const Cell&) { return true; };
+
+    Plant() { readings.q = Cell::rest(); }
+    void run(double until_s) {
+        while (readings.time_s < until_s) {
+            readings.barrier_broken = box_there && cell.state.phase == Phase::kIdle;
+            const bool held = holds(cell);
+            readings.eye = held ? 0.04 : 0.09;
+            readings.opening = held ? 0.03 : 0;
+            std::optional<SeenBox> seen;
+            if (cell.wants_scan(readings.time_s)) seen = SeenBox{0.03, kBeltAside, kBeltTop + 0.06, 0.5};
+            (void)cell.step(readings, seen, held);
+            readings.time_s += kPeriod;
+            readings.q = cell.state.motion.at(readings.time_s);
+        }
+    }
+};
+
+TEST(Cell, MovesABoxInFiveSeconds) {
+    Plant plant;
+    plant.run(30);
+    EXPECT_GE(plant.cell.state.moved, 5);
+    EXPECT_EQ(plant.cell.state.dropped + plant.cell.state.missed + plant.cell.state.discarded, 0);
+}
+
+TEST(Cell, ABoxThatIsLostOnTheWayIsCountedAndTheCellGoesOn) {
+    Plant plant;
+    int carries = 0;
+    Phase before = Phase::kIdle;
+    plant.holds = [&](const Cell& cell) {
+        if (cell.state.phase == Phase::kCarry && before != Phase::kCarry) ++carries;
+        before = cell.state.phase;
+        const bool first_way = carries == 1 && (before == Phase::kCarry || before == Phase::kSetDown);
+        return !first_way;
+    };
+    plant.run(30);
+    EXPECT_EQ(plant.cell.state.dropped, 1);
+    EXPECT_GE(plant.cell.state.moved, 4);
+}
+
+TEST(Cell, AMissedBoxIsFetchedAgain) {
+    Plant plant;
+    plant.holds = [](const Cell& cell) { return cell.state.missed >= 2; };
+    plant.run(20);
+    EXPECT_EQ(plant.cell.state.missed, 2);
+    EXPECT_GE(plant.cell.state.moved, 1);
+    EXPECT_EQ(plant.cell.state.dropped, 0);
+}
+
+std::shared_ptr<const roboss::Model> compiled_cells(const std::string& gripper) {
+    roboss::Diagnostics diagnostics;
+    const auto world = roboss::load_world_text(roboss::cell_sdf({2, gripper}), "cells.sdf", {}, diagnostics);
+    auto model = world ? roboss::compile(*world, {}, diagnostics) : nullptr;
+    for (const roboss::Diagnostic& finding : diagnostics.items()) ADD_FAILURE() << to_text(finding);
+    return model;
+}
+
+std::unique_ptr<roboss::Simulation> cells(const std::shared_ptr<const roboss::Model>& model,
+                                          std::size_t simulators, const roboss::SavedRun* from = nullptr) {
+    std::vector<roboss::NamedProgram> programs;
+    for (const char* library : {ROBOSS_ARM_CELL, ROBOSS_ARM_FEEDER})
+        programs.push_back({library, roboss::load_control_program(library).value()});
+    roboss::SimulationOptions options;
+    options.simulators = simulators;
+    return roboss::Simulation::create(model, options, std::move(programs), from).value();
+}
+
+/// Boxes that stand on the out belt of a cell.
+int on_out_belt(roboss::Simulation& simulation, int cell) {
+    int count = 0;
+    for (int i = 0; i < kBoxes; ++i) {
+        const roboss::RobotId box = *simulation.model().find_robot(box_name(cell, i));
+        const roboss::Vec3 p = base_pose(simulation.states()[box.index()]).p;
+        const double height = kind_of_box(i).height;
+        const bool at_y = std::fabs(p.y - cell_origin(cell).y + kBeltAside) < 0.01;
+        if (at_y && std::fabs(p.z - kBeltTop - height / 2) < 1e-4) ++count;
+    }
+    return count;
+}
+
+constexpr double kSeconds = ROBOSS_ARM_CELL_SECONDS;
+
+void expect_equal_runs(const std::string& gripper) {
+    const auto model = compiled_cells(gripper);
+    const auto tick = [&](double seconds) { return roboss::Tick(std::llround(seconds / model->dt_s)); };
+    auto one = cells(model, 1), four = cells(model, 4);
+    ASSERT_TRUE(one->run_until(tick(kSeconds)).ok());
+    ASSERT_TRUE(four->run_until(tick(0.55 * kSeconds)).ok());
+    const roboss::SavedRun saved = four->saved_run();
+    auto continued = cells(model, 4, &saved);
+    ASSERT_TRUE(continued->run_until(tick(kSeconds)).ok());
+    EXPECT_EQ(one->hash(), continued->hash());
+    if (kSeconds < 15) return;
+    for (const int cell : {0, 1}) EXPECT_GE(on_out_belt(*one, cell), 1) << gripper << ' ' << cell;
+}
+
+TEST(ArmCells, WithFingersAreTheSameOnOneAndFourSimulatorsAndWhenContinued) {
+    expect_equal_runs("fingers");
+}
+
+TEST(ArmCells, WithSuctionAreTheSameOnOneAndFourSimulatorsAndWhenContinued) {
+    expect_equal_runs("suction");
+}
+
+}  // namespace
+}  // namespace arm_cell
