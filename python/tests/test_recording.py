@@ -1,7 +1,9 @@
 """`roboss record`, `plot` and `analyse`: variables of runs, their files, reports."""
 import json
+import re
 import subprocess
 import sys
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -148,6 +150,28 @@ def test_an_arm_is_tested_and_its_recording_gives_the_same_figures(tmp_path):
         assert {**one, "Condition": 0} == pytest.approx({**other, "Condition": 0})
     text = page.read_text()
     assert text.count("<svg") == 6 and "http-equiv" not in text and 'src="' not in text  # nothing is fetched
+
+
+def test_an_arm_of_four_axes_keeps_the_orientation_that_it_can():
+    from roboss.analysis.arm_driver import ArmDriver, ArmTest
+    driver = ArmDriver(ArmTest(roboss.example("arm_cell.sdf"), "arm_0", "hand", payload=0.5, cycles=2, loads=(1.0,), speeds=(1.0,)))
+    assert not driver.cube.turns and driver.cube.poses[:, 3:].tolist() == [[0, 0, 0, 1]] * 5
+    (_, recording), = driver.recordings()
+    condition = analysis.analyse_arm(recording.time, recording["arm_0.hand.pose"], recording["arm_0.hand.command"])
+    assert all(0 < pose.score.repeatability < 1e-4 and pose.score.accuracy < 1e-3 for pose in condition.poses)
+
+
+def test_the_orientation_is_free_where_an_arm_of_few_axes_cannot_keep_it(tmp_path):
+    from roboss.analysis.arm_driver import ArmDriver, ArmTest
+    text = Path(ARM).read_text()
+    for joint in ("roll", "bend", "flange"):
+        text = re.sub(rf'(<joint name="{joint}" type=)"revolute"(.*?)<axis>.*?</axis>', r'\1"fixed"\2', text, flags=re.DOTALL)
+    (tmp_path / "three.sdf").write_text(text)
+    cube = ArmDriver(ArmTest(tmp_path / "three.sdf", "arm", "tool")).cube
+    assert cube.turns and cube.q.shape == (5, 3)
+    assert len(np.unique(cube.poses[:, 3:].round(6), axis=0)) == 5
+    with pytest.raises(roboss.ArgumentError):
+        ArmDriver(ArmTest(tmp_path / "three.sdf", "arm", "tool", orientation=(0, 1, 0, 0)))
 
 
 def test_without_errors_of_encoders_an_arm_repeats(tmp_path):

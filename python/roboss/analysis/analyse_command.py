@@ -49,8 +49,9 @@ def parser() -> Parser:
     arm.add_argument("--cycles", type=int, default=30, metavar="N", help="default: 30, as in the standard")
     arm.add_argument("--center", type=float, nargs=3, metavar=("X", "Y", "Z"), help="of the cube, m (default: found)")
     arm.add_argument("--side", type=float, metavar="M", help="of the cube (default: the largest of the standard that it reaches)")
-    arm.add_argument("--orientation", type=float, nargs=4, default=(0, 1, 0, 0), metavar=("QX", "QY", "QZ", "QW"),
-                     help="of the tool (default: 0 1 0 0, it looks down)")
+    arm.add_argument("--orientation", type=float, nargs=4, metavar=("QX", "QY", "QZ", "QW"),
+                     help="of the tool (default: 0 1 0 0, it looks down; if it cannot, as at the start; of an arm with fewer "
+                          "than six joints that cannot keep it, free)")
     arm.add_argument("--servo-hz", type=float, default=8.0, metavar="HZ", help="bandwidth of the PID (default: 8)")
     arm.add_argument("--encoder-bits", type=int, default=19, metavar="N", help="steps per turn: 2^N (default: 19)")
     arm.add_argument("--encoder-noise", type=float, default=1e-5, metavar="RAD", help="standard deviation (default: 1e-5)")
@@ -109,8 +110,8 @@ def _arm(options: Any, progress: Progress) -> Any:
                             "give 2 cycles or more, and numbers above 0", "bad-value")
     test = ArmTest(options.source, options.robot, options.link, options.payload, tuple(options.loads), tuple(options.speeds),
                    options.cycles, center=options.center and tuple(options.center), side=options.side,
-                   orientation=tuple(options.orientation), servo_hz=options.servo_hz, encoder_bits=options.encoder_bits,
-                   encoder_noise=options.encoder_noise, seed=options.seed, load_options=load_options)
+                   orientation=options.orientation and tuple(options.orientation), servo_hz=options.servo_hz,
+                   encoder_bits=options.encoder_bits, encoder_noise=options.encoder_noise, seed=options.seed, load_options=load_options)
     driver = ArmDriver(test)
     measured, commanded = (f"{driver.robot}.{driver.link}.{what}" for what in ("pose", "command"))
     progress.note(f"cube of {driver.cube.side:g} m at {' '.join(f'{x:.3f}' for x in driver.cube.center)}")
@@ -123,8 +124,10 @@ def _arm(options: Any, progress: Progress) -> Any:
         write(_joined(kept), options.keep)
     force = options.force or 9.81 * options.payload
     cube = driver.cube
+    turn = "free: positions only" if cube.turns else " ".join(f"{x:.3g}" for x in cube.poses[0, 3:]) + " (x y z w)"
     facts = [("World", options.source), ("Robot and link", f"{driver.robot}, {driver.link}"),
              ("Cube", f"{cube.side:g} m, centre {' '.join(f'{x:.3f}' for x in cube.center)} m"),
+             ("Orientation of the tool", turn),
              ("Cycles", str(test.cycles)), ("Rated load", f"{test.payload:g} kg"),
              ("Servo", f"PID of {test.servo_hz:g} Hz, torques of the unloaded arm fed forward"),
              ("Encoders", f"2^{test.encoder_bits} steps per turn, noise {test.encoder_noise:g} rad, seed {test.seed}")]

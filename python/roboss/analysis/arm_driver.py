@@ -46,7 +46,8 @@ class ArmTest:
         cycles: by the standard 30.
         rest: time at each pose, s.
         center, side: of the cube, m; None: the largest that the arm reaches.
-        orientation: of the tool, quaternion x y z w.
+        orientation: of the tool, quaternion x y z w. None: it looks down; if it cannot, as at the start of the world;
+            if it cannot keep that either and has fewer than six joints, it is free: only positions are tested.
         servo_hz: bandwidth of the PID.
         encoder_bits: steps of an encoder per turn, as a power of two.
         encoder_noise: standard deviation, rad.
@@ -64,7 +65,7 @@ class ArmTest:
     rest: float = 0.6
     center: Optional[tuple[float, float, float]] = None
     side: Optional[float] = None
-    orientation: tuple[float, float, float, float] = _DOWN
+    orientation: Optional[tuple[float, float, float, float]] = None
     servo_hz: float = 8.0
     encoder_bits: int = 19
     encoder_noise: float = 1e-5
@@ -75,12 +76,14 @@ class ArmTest:
 
 @dataclass(frozen=True)
 class Cube:
-    """Where the cube is: centre (3,) and side, m; the test poses (5, 7) and their configurations (5, joints)."""
+    """Where the cube is: centre (3,) and side, m; the test poses (5, 7) and their configurations (5, joints); whether
+    the orientation of the tool is free."""
 
     center: Floats
     side: float
     poses: Floats
     q: Floats
+    turns: bool = False
 
 
 class ArmDriver:
@@ -128,7 +131,8 @@ class ArmDriver:
         if (first, second) not in self._lines:
             knots = np.linspace(0, 1, 60)
             poses = ctraj(self.cube.poses[first], self.cube.poses[second], knots, ramp=0).pose
-            q = self.arm.inverse_kinematics(poses, self.link, start=self.cube.q[first], path=True).q
+            q = self.arm.inverse_kinematics(poses, self.link, start=self.cube.q[first], weights=_weights(self.cube.turns),
+                                            path=True).q
             q[0], q[-1] = self.cube.q[first], self.cube.q[second]
             self._lines[first, second] = knots, q
         return self._lines[first, second]
@@ -155,39 +159,63 @@ class ArmDriver:
         return quietly_loaded(with_load(Path(self.test.world).read_text(), self.robot, self.link, mass), **options)
 
     def _cube(self) -> Cube:
-        test = self.test
-        reach = self._reach()
+        test, reach = self.test, self._reach()
         sides = [test.side] if test.side else [side for side in _SIDES if side < reach]
-        centers = [np.array(test.center)] if test.center else [
-            self._base()[:3] + reach * np.array([x, 0, z]) for x in (0.5, 0.45, 0.55, 0.6, 0.4) for z in (0.35, 0.25, 0.45, 0.15)]
-        for side in sides:
-            for center in centers:
-                poses = np.hstack([cube_poses(center, side), np.tile(test.orientation, (5, 1))])
-                q = self._configurations(poses)
-                if q is not None:
-                    return Cube(center, side, poses, q)
+        centers = [np.array(test.center)] if test.center else self._centers(reach)
+        for orientation, turns in self._orientations():
+            for side in sides:
+                for center in centers:
+                    poses = np.hstack([cube_poses(center, side), np.tile(orientation, (5, 1))])
+                    q = self._configurations(poses, turns)
+                    if q is not None:
+                        if turns:
+                            poses[:, 3:] = self.arm.link_pose(q, self.link)[:, 3:]
+                        return Cube(center, side, poses, q, turns)
         raise ArgumentError(f"'{self.link}' of '{self.robot}' does not reach the five poses of "
                             + (f"a cube of {test.side} m" if test.side else "any cube of the standard"),
                             "give --center and --side of the cube, or another --orientation of the tool", "out-of-reach")
 
-    def _configurations(self, poses: Floats) -> Optional[Floats]:
+    def _orientations(self) -> list[tuple[Floats, bool]]:
+        """Those of the tool that are tried, and whether it may turn away from them."""
+        if self.test.orientation is not None:
+            return [(np.array(self.test.orientation), False)]
+        start = self.arm.link_pose(self.arm.start, self.link)[3:]
+        jacobian = self.arm.jacobian(self._random(20), self.link)
+        axes = np.count_nonzero(np.abs(jacobian).max(axis=(0, 1)) > 1e-9)
+        return [(np.array(_DOWN), False), (start, False)] + ([(start, True)] if axes < 6 else [])
+
+    def _centers(self, reach: float) -> list[Floats]:
+        """Of cubes that are tried: before the base, at heights by the reach, then at the middle of all heights."""
+        base, middle = self._base()[:3], float(np.median(self._positions_at_random()[:, 2]))
+        shares = (0.5, 0.45, 0.55, 0.6, 0.4)
+        return [base + reach * np.array([x, 0, z]) for x in shares for z in (0.35, 0.25, 0.45, 0.15)] \
+            + [np.array([base[0] + reach * x, base[1], middle]) for x in shares]
+
+    def _configurations(self, poses: Floats, turns: bool) -> Optional[Floats]:
         """Configurations of the five poses and of the straight paths between them; None: out of reach."""
-        start = self.arm.inverse_kinematics(poses[0], self.link)
+        weights = _weights(turns)
+        start = self.arm.inverse_kinematics(poses[0], self.link, weights=weights)
         if not start.success:
             return None
         q = [start.q]
         for pose in poses[1:]:
             line = ctraj(poses[0], pose, np.linspace(0, 1, 12)).pose
-            found = self.arm.inverse_kinematics(line, self.link, start=start.q, path=True, attempts=1)
+            found = self.arm.inverse_kinematics(line, self.link, start=start.q, weights=weights, path=True, attempts=1)
             if not found.success.all() or np.abs(np.diff(found.q, axis=0)).max() > 0.6:
                 return None
             q.append(found.q[-1])
         return np.array(q)
 
     def _reach(self) -> float:
+        return float(np.linalg.norm(self._positions_at_random() - self._base()[:3], axis=1).max())
+
+    def _positions_at_random(self) -> Floats:
+        return self.arm.link_pose(self._random(500), self.link)[:, :3]
+
+    def _random(self, count: int) -> Floats:
+        """Configurations within the limits, (count, joints); the same in every call."""
         low, high = np.clip(self.arm.joint_limits, -np.pi, np.pi).T
-        q = np.random.default_rng(0).uniform(low, high, (500, len(low)))
-        return float(np.linalg.norm(self.arm.link_pose(q, self.link)[:, :3] - self._base()[:3], axis=1).max())
+        return np.random.default_rng(0).uniform(low, high, (count, len(low)))
 
     def _base(self) -> Floats:
         return self.arm.link_pose(self.arm.start, self.arm.links[0])
@@ -307,6 +335,11 @@ def with_load(text: str, robot: str, link: str, mass: float) -> str:
     return xml.tostring(root, encoding="unicode")
 
 
+def _weights(turns: bool) -> tuple[int, ...]:
+    """Of inverse kinematics: the orientation of the tool counts, or is free."""
+    return (1, 1, 1, 0, 0, 0) if turns else (1, 1, 1, 1, 1, 1)
+
+
 def _only_arm(world: World) -> str:
     jointed = [name for number, name in enumerate(world.robots) if world._facts_of(number).axes]
     if len(jointed) != 1:
@@ -325,5 +358,8 @@ def _between(knots: Floats, values: Floats, at: Floats) -> Floats:
 
 
 def _between_poses(first: Floats, second: Floats, at: Floats) -> Floats:
-    """Poses on the straight line of two with the same orientation, (T, 7)."""
-    return first + at[:, None] * (second - first)
+    """Poses on the straight line of two, (T, 7); a free orientation turns from the one to the other."""
+    second = np.concatenate([second[:3], second[3:] * (-1 if first[3:] @ second[3:] < 0 else 1)])
+    poses = first + at[:, None] * (second - first)
+    poses[:, 3:] /= np.linalg.norm(poses[:, 3:], axis=1, keepdims=True)
+    return poses
