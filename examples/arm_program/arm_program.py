@@ -61,6 +61,7 @@ class Step:
     worst_joint: str = ""
     below_m: float = 0.0            # how far the origin of a link goes below the foot of the arm
     q: np.ndarray = field(default=None, repr=False)
+    target: np.ndarray = field(default=None, repr=False)    # world pose (7,), where it is out of reach
 
 
 def read_program(text):
@@ -143,8 +144,7 @@ class Planner:
             target = self.pose(command.values)
             knots = self._move(q, target) if command.name == "move" else self._line(q, pose, target)
             if knots is None:
-                found = self.solve(target, q)
-                step.reached, step.error_m = False, float(found.position_error)
+                step.reached, step.target = False, target
                 continue
             step.time_s, step.q = self.timed(knots, speed)
             step.below_m = max(0.0, float(self.base[2] - self.arm.link_poses(step.q)[..., 2].min()))
@@ -160,15 +160,19 @@ class Planner:
         found = self.solve(np.tile(first, (len(starts), 1)), starts)
         candidates = found.q[found.success] if found.success.any() else found.q[:1]
         plans = [self.plan(commands, q) for q in candidates]
-        return min(plans, key=lambda steps: (sum(not step.reached for step in steps),
+        best = min(plans, key=lambda steps: (sum(not step.reached for step in steps),
                                              max(step.below_m for step in steps) > 0.01, sum(step.time_s for step in steps)))
+        for step in best:
+            if not step.reached:
+                step.error_m = float(self.solve(step.target, candidates[0]).position_error)
+        return best
 
     def _move(self, q, target):
         """Of the configurations that are found from `q`, near it and anywhere, the one that is reached soonest."""
         low, high = np.clip(self.arm.joint_limits, -np.pi, np.pi).T
         random = np.random.default_rng(0)
         near, far = random.normal(q, 0.7, (STARTS, len(q))), random.uniform(low, high, (STARTS, len(q)))
-        found = self.solve(np.tile(target, (1 + 2 * STARTS, 1)), np.vstack([q, near, far]))
+        found = self.solve(np.tile(target, (1 + 2 * STARTS, 1)), np.vstack([q, near, far]), attempts=1)
         if not found.success.any():
             return None
         ends = found.q[found.success]
