@@ -21,19 +21,21 @@ namespace {
 struct Plant {
     Cell cell{Gripper::kFingers, Cell::rest()};
     Readings readings;
-    bool box_there = true;  // before the light barrier
+    Orders orders;
+    bool box_there = true, sees = true;  // before the light barrier; by the scanner
     std::function<bool(const Cell&)> holds = [](const Cell&) { return true; };
 
     Plant() { readings.q = Cell::rest(); }
     void run(double until_s) {
         while (readings.time_s < until_s) {
-            readings.barrier_broken = box_there && cell.state.phase == Phase::kIdle;
+            readings.barrier_broken = cell.wants_barrier() && box_there && cell.state.phase == Phase::kIdle;
             const bool held = holds(cell);
             readings.eye = held ? 0.04 : 0.09;
             readings.opening = held ? 0.03 : 0;
             std::optional<SeenBox> seen;
-            if (cell.wants_scan(readings.time_s)) seen = SeenBox{0.03, kBeltAside, kBeltTop + 0.06, 0.5};
-            (void)cell.step(readings, seen, held);
+            if (sees && cell.wants_scan(readings.time_s))
+                seen = SeenBox{0.03, kBeltAside, kBeltTop + 0.06, 0.5};
+            orders = cell.step(readings, seen, held);
             readings.time_s += kPeriod;
             readings.q = cell.state.motion.at(readings.time_s);
         }
@@ -62,6 +64,21 @@ TEST(Cell, ABoxThatIsLostOnTheWayIsCountedAndTheCellGoesOn) {
     EXPECT_GE(plant.cell.state.moved, 4);
 }
 
+TEST(Cell, ABoxThatTheScannerDoesNotSeeRunsOnUntilTheBarrierIsClear) {
+    Plant plant;
+    plant.sees = false;
+    plant.run(2);
+    EXPECT_EQ(plant.cell.state.discarded, 1);
+    EXPECT_TRUE(plant.orders.belt_runs) << "as long as the box breaks the barrier";
+    plant.box_there = false;
+    plant.run(2.1);
+    plant.box_there = true;
+    plant.sees = true;
+    plant.run(10);
+    EXPECT_EQ(plant.cell.state.discarded, 1);
+    EXPECT_GE(plant.cell.state.moved, 1);
+}
+
 TEST(Cell, AMissedBoxIsFetchedAgain) {
     Plant plant;
     plant.holds = [](const Cell& cell) { return cell.state.missed >= 2; };
@@ -71,9 +88,9 @@ TEST(Cell, AMissedBoxIsFetchedAgain) {
     EXPECT_EQ(plant.cell.state.dropped, 0);
 }
 
-std::shared_ptr<const roboss::Model> compiled_cells(const std::string& gripper) {
+std::shared_ptr<const roboss::Model> compiled(const std::string& text) {
     roboss::Diagnostics diagnostics;
-    const auto world = roboss::load_world_text(roboss::cell_sdf({2, gripper}), "cells.sdf", {}, diagnostics);
+    const auto world = roboss::load_world_text(text, "cells.sdf", {}, diagnostics);
     auto model = world ? roboss::compile(*world, {}, diagnostics) : nullptr;
     for (const roboss::Diagnostic& finding : diagnostics.items()) ADD_FAILURE() << to_text(finding);
     return model;
@@ -105,7 +122,7 @@ int on_out_belt(roboss::Simulation& simulation, int cell) {
 constexpr double kSeconds = ROBOSS_ARM_CELL_SECONDS;
 
 void expect_equal_runs(const std::string& gripper) {
-    const auto model = compiled_cells(gripper);
+    const auto model = compiled(roboss::cell_sdf({2, gripper}));
     const auto tick = [&](double seconds) { return roboss::Tick(std::llround(seconds / model->dt_s)); };
     auto one = cells(model, 1), four = cells(model, 4);
     ASSERT_TRUE(one->run_until(tick(kSeconds)).ok());
@@ -124,6 +141,18 @@ TEST(ArmCells, WithFingersAreTheSameOnOneAndFourSimulatorsAndWhenContinued) {
 
 TEST(ArmCells, WithSuctionAreTheSameOnOneAndFourSimulatorsAndWhenContinued) {
     expect_equal_runs("suction");
+}
+
+TEST(ArmCells, WithSlipperyPadsMoveNoBox) {
+    std::string text = roboss::cell_sdf({1, "fingers"});
+    const std::string pads = "<mu>1</mu><mu2>1</mu2>";
+    int count = 0;
+    for (std::size_t at = text.find(pads); at != std::string::npos; at = text.find(pads, at), ++count)
+        text.replace(at, pads.size(), "<mu>0.02</mu><mu2>0.02</mu2>");
+    ASSERT_EQ(count, 2);
+    auto one = cells(compiled(text), 1);
+    ASSERT_TRUE(one->run_until(roboss::Tick(std::llround(kSeconds / one->model().dt_s))).ok());
+    EXPECT_EQ(on_out_belt(*one, 0), 0) << "nothing but friction holds a box";
 }
 
 }  // namespace

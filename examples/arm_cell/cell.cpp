@@ -175,8 +175,11 @@ void Cell::move_arm(const Readings& readings, const std::optional<SeenBox>& seen
 }
 
 Orders Cell::step(const Readings& readings, const std::optional<SeenBox>& seen, bool touched) {
-    move_arm(readings, seen, touched);  // first: wants_scan() and wants_touch() looked at the same state
-    move_belt(readings);
+    // First the belt if it looks at the light barrier, and the arm in the state that the wants_...() looked
+    // at.
+    const bool sees_barrier = wants_barrier();
+    move_arm(readings, seen, touched);
+    if (sees_barrier || state.belt == Belt::kStopping) move_belt(readings);
     Orders orders;
     // They act from one period later, for one period.
     const double time_s = readings.time_s;
