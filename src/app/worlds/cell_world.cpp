@@ -44,12 +44,18 @@ void add_visual(Text& text, const Part& part, std::string_view colour) {
         part.name, geometry(part), colour);
 }
 
-void add_solid(Text& text, const Part& part, std::string_view colour, double friction) {
+/// `patch`: radius of the patch with which a soft surface touches, m: it resists turns about the normal; 0 in
+/// a box, which leaves that to the pad; negative: no such friction.
+void add_solid(Text& text, const Part& part, std::string_view colour, double friction, double patch = -1) {
+    const std::string torsional =
+        patch < 0 ? std::string()
+                  : fmt::format(
+                        "<torsional><coefficient>{}</coefficient><patch_radius>{}</patch_radius></torsional>",
+                        friction, patch);
     add(text,
-        "        <collision "
-        "name=\"{0}\">{1}<surface><friction><ode><mu>{2}</mu><mu2>{2}</mu2></ode></friction>"
-        "</surface></collision>\n",
-        part.name, geometry(part), friction);
+        "        <collision name=\"{0}\">{1}<surface><friction><ode><mu>{2}</mu><mu2>{2}</mu2></ode>{3}"
+        "</friction></surface></collision>\n",
+        part.name, geometry(part), friction, torsional);
     add_visual(text, part, colour);
 }
 
@@ -193,7 +199,7 @@ void add_finger(Text& text, bool left) {
     const Part blade{"blade", {0, side * 0.010, length / 2}, 0.024, 0.012, length};
     add_inertial(text, blade, 0.08);
     add_visual(text, blade, kSteel);
-    add_solid(text, {"pad", {0, side * 0.002, 0.018}, 0.030, 0.004, 0.036}, kRubber, 1.0);
+    add_solid(text, {"pad", {0, side * 0.002, 0.018}, 0.030, 0.004, 0.036}, kRubber, 1.0, 0.015);
     add(text,
         "        <sensor name=\"touch\" "
         "type=\"contact\"><contact><collision>pad</collision></contact></sensor>\n      </link>\n");
@@ -277,7 +283,7 @@ void add_box(Text& text, int cell, int number) {
         "    <model name=\"{}\">\n      <pose>{:.3f} {:.3f} {:.3f} 0 0 0</pose>\n      <link name=\"box\">\n",
         box_name(cell, number), at.x + rack.x, at.y + rack.y, rack.z);
     add_inertial(text, box, kind.mass_kg);
-    add_solid(text, box, kCardboard, 0.6);
+    add_solid(text, box, kCardboard, 0.6, 0);
     add(text, "      </link>\n    </model>\n");
 }
 
