@@ -4,7 +4,9 @@ import csv
 import json
 import math
 import os
+import re
 import signal
+import socket
 import subprocess
 import sys
 import time
@@ -27,9 +29,9 @@ def running(*command):
     try:
         yield process
     finally:
-        if process.poll() is None:
+        if not process.stdout.closed:
             process.kill()
-        process.communicate()
+            process.communicate()
 
 
 @contextlib.contextmanager
@@ -98,6 +100,40 @@ def test_the_arm_moves_from_posture_to_posture_through_a_reboot(tmp_path):
         found = summary(arm)["arm"]
     assert found["highest"][0] == pytest.approx(0.8, abs=0.03) and found["lowest"][0] == pytest.approx(-0.8, abs=0.03)
     assert done["devices"][0]["reboots"] == found["reboots"] == 1
+
+
+ARM = """
+import sys
+angles = dict.fromkeys(["yaw", "shoulder", "elbow", "roll", "bend", "flange"], 0.0)
+
+def stop_motors():
+    pass
+
+def set_motors(joints):
+    for name, order in joints.items():
+        angles[name] += max(-0.01, min(0.01, order["target"] - angles[name]))
+        if name == "yaw" and angles[name] > 0.75:
+            print("reached", flush=True)
+
+def read_encoders():
+    return {name: {"position": angle, "velocity": 0.0} for name, angle in angles.items()}
+"""
+
+
+def test_the_device_that_the_page_shows_is_one(tmp_path):
+    page = (REPOSITORY / "docs" / "devices.md").read_text()
+    shown, = re.findall(r"^```python\n(.*?)^```", page, re.DOTALL | re.MULTILINE)
+    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as probe:
+        probe.bind(("127.0.0.1", 0))
+        port = probe.getsockname()[1]
+    assert '("", 2008)' in shown
+    with running(sys.executable, "-c", ARM + shown.replace('("", 2008)', f'("127.0.0.1", {port})')) as arm:
+        done = drive(tmp_path, "roboss_arm_postures", WORLDS / "arm.sdf", "--robot", "arm", "--connect",
+                     f"udp:127.0.0.1:{port}", "--duration", 3)
+        arm.kill()
+        said = arm.communicate()
+    assert "reached" in said[0], said[1]
+    assert done["devices"][0]["lost"] == done["devices"][0]["damaged"] == 0
 
 
 def test_a_robot_whose_program_was_killed_stops_by_its_watchdog(tmp_path):

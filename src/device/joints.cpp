@@ -15,6 +15,7 @@ using nlohmann::json;
 constexpr double kRepeat_s = 0.02;    // between packets that say nothing new
 constexpr double kWatchdog_s = 0.5;   // after which a device that hears nothing stops
 constexpr double kBetween_s = 0.002;  // at least
+constexpr double kAnew_s = 1;         // of old numbers only
 constexpr double kFilter_s = 0.05;    // of velocities that are made from poses
 constexpr std::size_t kNotedMost = 20;
 
@@ -131,7 +132,7 @@ void JointsAdapter::receive(std::string_view bytes, double now_s) {
         note_once("a packet was dropped: " + *wrong);
         return;
     }
-    if (!is_new(packet)) {
+    if (!is_new(packet, now_s)) {
         ++count_.stale;
         return;
     }
@@ -186,20 +187,25 @@ std::optional<std::string> JointsAdapter::read(std::string_view bytes, Packet& p
     return std::nullopt;
 }
 
-bool JointsAdapter::is_new(const Packet& packet) {
-    if (boots_.empty() || boots_.back() != packet.boot) {
-        if (std::ranges::find(boots_, packet.boot) != boots_.end()) return false;  // of before a reboot
-        if (!boots_.empty()) {
-            ++count_.reboots;
-            notices_.push_back("the device started again");
-        }
-        boots_.push_back(packet.boot);
-        stamp_s_ = packet.stamp_s;
-        acknowledged_ = 0;
-    } else {
+bool JointsAdapter::is_new(const Packet& packet, double now_s) {
+    const bool same = !boots_.empty() && boots_.back() == packet.boot;
+    // Nothing but old numbers for so long: it started again, and has no clock or chance for another boot
+    // number.
+    const bool anew = same && packet.number <= heard_ && now_s - readings_.fresh_s > kAnew_s;
+    if (same && !anew) {
         if (packet.number <= heard_) return false;
         count_.lost += packet.number - heard_ - 1;
+        heard_ = packet.number;
+        return true;
     }
+    if (!same && std::ranges::find(boots_, packet.boot) != boots_.end()) return false;  // of before a reboot
+    if (!boots_.empty()) {
+        ++count_.reboots;
+        notices_.push_back("the device started again");
+    }
+    if (!same) boots_.push_back(packet.boot);
+    stamp_s_ = packet.stamp_s;
+    acknowledged_ = 0;
     heard_ = packet.number;
     return true;
 }

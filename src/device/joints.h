@@ -40,7 +40,7 @@ class JointsAdapter final : public DeviceAdapter {
     /// Why the packet is none; nullopt: it is one.
     std::optional<std::string> read(std::string_view bytes, Packet& packet) const;
     void take(Packet packet, double now_s);
-    bool is_new(const Packet& packet);
+    bool is_new(const Packet& packet, double now_s);
     void note_once(const std::string& text);
     std::string packet();
 

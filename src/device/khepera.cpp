@@ -181,6 +181,8 @@ bool KheperaAdapter::take_proximity(const std::vector<long>& values, double now_
 /// A count that jumps further than a wheel turns was falsified on the line, or the robot started again
 /// unseen.
 bool KheperaAdapter::take_counts(const Counts& counts, double now_s) {
+    constexpr long kMost = 1L << 31;  // of a counter
+    if (std::abs(counts[0]) > kMost || std::abs(counts[1]) > kMost) return false;
     const double elapsed_s = std::min(now_s - counts_s_, 3600.0);
     const long most = std::lround(kSlack * KheperaUnits::kMostSpeed * (1 + 100 * elapsed_s));
     const auto far_from = [&](const Counts& other) {

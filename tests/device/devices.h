@@ -6,6 +6,8 @@
 #include <array>
 #include <string>
 
+#include <support/random.h>
+
 #include "device/device_run.h"
 #include "device/khepera.h"
 #include "sdf/load_world.h"
@@ -23,6 +25,17 @@ inline RobotId id_of(const Model& model, const std::string& name) {
     const auto robot = model.find_robot(name);
     EXPECT_TRUE(robot) << name;
     return robot.value_or(RobotId(0u));
+}
+
+/// With some bytes more and some less.
+inline std::string disturbed(std::string bytes, Random& random) {
+    const auto place = [&] {
+        return static_cast<std::size_t>(random.integer(0, static_cast<int>(bytes.size()) - 1));
+    };
+    while (!bytes.empty() && random.integer(0, 2) == 0)
+        bytes.insert(place(), 1, static_cast<char>(random.integer(-128, 127)));
+    while (!bytes.empty() && random.integer(0, 2) == 0) bytes.erase(place(), 1);
+    return bytes;
 }
 
 /// What a device would do at the other end of a line.

@@ -61,6 +61,15 @@ TEST_F(JointsProtocol, ARebootStartsNumbersAnewAndPacketsOfBeforeItAreLate) {
     EXPECT_EQ(adapter->count().stale, 1u);
 }
 
+TEST_F(JointsProtocol, ARebootWithTheSameBootNumberIsSeenAfterASecond) {
+    hear(readings(1000, 1));
+    for (std::uint64_t i = 1; i <= 90; ++i) hear(readings(i, 2));
+    EXPECT_EQ(position(), 1);
+    for (std::uint64_t i = 91; i <= 110; ++i) hear(readings(i, 3));
+    EXPECT_EQ(position(), 3);
+    EXPECT_EQ(adapter->count().reboots, 1u);
+}
+
 TEST_F(JointsProtocol, EachPacketCarriesAllSetpointsAndRestIsAcknowledged) {
     hear(readings(1, 0));
     ASSERT_TRUE(adapter->order(SetJoint{left, 0, MotorMode::kVelocity, 6, 0.02}).ok());
@@ -112,6 +121,21 @@ TEST_F(JointsProtocol, WhatIsNoPacketIsDroppedWithOneNotice) {
     EXPECT_EQ(adapter->count().taken, 0u);
     EXPECT_TRUE(adapter->readings().joints.empty());
     EXPECT_EQ(adapter->take_notices().size(), 8u);  // one kind came twice
+}
+
+TEST_F(JointsProtocol, DisturbedPacketsNeverGiveNumbersThatAreNone) {
+    Random random(6);
+    for (std::uint64_t i = 1; i <= 5000; ++i) {
+        json packet = readings(i, random.uniform(-5, 5));
+        packet["poses"]["ball"] = {{"position", {1, 2, 0}}, {"quat_xyzw", {0, 0, 0, 1}}};
+        adapter->receive(disturbed(packet.dump(), random), now += 0.01);
+    }
+    EXPECT_GT(adapter->count().damaged, 1000u);
+    EXPECT_GT(adapter->count().taken, 100u);
+    for (const auto& [joint, reading] : adapter->readings().joints)
+        EXPECT_TRUE(std::isfinite(reading.position) && std::isfinite(reading.velocity));
+    for (const auto& [id, pose] : adapter->readings().poses)
+        EXPECT_TRUE(std::isfinite(pose.X_WR.p.x + norm(pose.linear) + norm(pose.angular)));
 }
 
 TEST_F(JointsProtocol, VelocitiesAreMadeOfPosesThatHaveNone) {

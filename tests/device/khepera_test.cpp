@@ -98,6 +98,8 @@ TEST_F(KheperaProtocol, DamagedAnswersAreDroppedAndTheNextOneIsAskedFor) {
     EXPECT_EQ(adapter->count().damaged, 6u);
     adapter->receive("h,999999,40\r\n", now);  // a digit too many
     EXPECT_EQ(adapter->count().damaged, 7u);
+    adapter->receive("h,-9223372036854775807,9223372036854775807\r\n", now);
+    EXPECT_EQ(adapter->count().damaged, 8u);
     const double was = position(left);
     talk(0.2);
     EXPECT_EQ(position(left), was);
@@ -143,6 +145,23 @@ TEST_F(KheperaProtocol, ARebootWhoseBannerIsLostIsSeenInTheCounts) {
     device.counts = {0, 0};
     talk(0.2);
     EXPECT_NEAR(position(left), was, 1e-9);
+}
+
+TEST_F(KheperaProtocol, AnyNoiseIsSurvivedAndAfterItTheRobotIsReadAgain) {
+    Random random(5);
+    for (int i = 0; i < 20000; ++i) {
+        for (const std::string& bytes : adapter->due(now)) device.hear(bytes);
+        for (const std::string& bytes : device.say()) adapter->receive(disturbed(bytes, random), now);
+        now += 0.003;
+    }
+    EXPECT_GT(adapter->count().damaged, 1000u);
+    device.counts = {0, 0};
+    talk(0.6);
+    EXPECT_LT(now - adapter->readings().fresh_s, 0.1);
+    device.counts = {100, 50};
+    const double was = position(left);
+    talk(0.2);
+    EXPECT_NEAR(position(left) - was, 100 * KheperaUnits::kRadians, 1e-9);
 }
 
 TEST_F(KheperaProtocol, WhatItCannotDoIsRefused) {
