@@ -60,6 +60,15 @@ def drive(tmp_path, client, *options):
     return json.loads((tmp_path / "device.json").read_text())
 
 
+def await_driving(process):
+    """Reads what the command says until the program drives; then lets it drive for a moment."""
+    for line in process.stderr:
+        if "[driving]" in line:
+            time.sleep(0.5)
+            return
+    raise AssertionError("it never drove")
+
+
 KHEPERA = ["--robot", "khepera", "--protocol", "khepera", "--connect"]
 
 
@@ -140,11 +149,23 @@ def test_a_robot_whose_program_was_killed_stops_by_its_watchdog(tmp_path):
     with stand_in("joints", "arm.sdf", "--robot", "arm:0") as (arm, at):
         with running(*device(tmp_path, "roboss_arm_postures", WORLDS / "arm.sdf", "--robot", "arm", "--connect",
                              f"udp:127.0.0.1:{at['robots']['arm']}")) as process:
-            time.sleep(1)
+            await_driving(process)
             process.kill()
-        time.sleep(0.8)
+        time.sleep(1.2)
         found = summary(arm)["arm"]
     assert found["watchdog"] == 1 and max(map(abs, found["joint_velocity"])) < 0.01
+
+
+def test_ctrl_c_stops_the_robot_first(tmp_path):
+    with stand_in("joints", "arm.sdf", "--robot", "arm:0", "--loss", 0.2) as (arm, at):
+        options = ["--robot", "arm", "--connect", f"udp:127.0.0.1:{at['robots']['arm']}", WORLDS / "arm.sdf"]
+        with running(*device(tmp_path, "roboss_arm_postures", *options)) as process:
+            await_driving(process)
+            process.send_signal(signal.SIGINT)
+            said = process.communicate(timeout=10)[1]
+        found = summary(arm)["arm"]
+    assert process.returncode == 130 and "[unstopped]" not in said, said
+    assert found["stops"] == 1 and "watchdog" not in found
 
 
 def test_a_twin_follows_the_real_robot_in_a_run_of_others(tmp_path):

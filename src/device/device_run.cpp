@@ -48,8 +48,9 @@ void DeviceRun::advance(double now_s) {
         case Phase::kConnecting:
         case Phase::kSilent:
             if (silent == nullptr) {
-                if (phase_ == Phase::kSilent)
-                    notices_.push_back("all devices answer again after " + text_of(waited_s) + " [back]");
+                notices_.push_back(phase_ == Phase::kSilent
+                                       ? "all devices answer again after " + text_of(waited_s) + " [back]"
+                                       : "all devices answer; the program drives [driving]");
                 enter(Phase::kDriving, now_s);
             } else if (waited_s > o_.give_up_s) {
                 fail({called(*model_, *silent) + " gave no readings for " + text_of(waited_s),
@@ -126,18 +127,21 @@ void DeviceRun::enter(Phase phase, double now_s) {
     phase_ = phase;
     entered_s_ = now_s;
     for (const Device& device : devices_) device.adapter->rest(phase != Phase::kDriving);
+    if (phase != Phase::kDriving) return;
+    if (begin_s_ == kNever) begin_s_ = now_s;
+    due_ = (reached(now_s) + o_.period - 1) / o_.period * o_.period;  // periods of silence are not late
+}
+
+/// The last tick that has begun by the wall clock.
+Tick DeviceRun::reached(double now_s) const {
+    return static_cast<Tick>(std::floor((now_s - begin_s_) / model_->dt_s + 1e-6));
 }
 
 void DeviceRun::drive(double now_s) {
-    const double dt_s = model_->dt_s;
-    if (!started_) begin_s_ = now_s;
     if (o_.duration_s > 0 && now_s - begin_s_ >= o_.duration_s) return enter(Phase::kStopping, now_s);
-    const auto reached = static_cast<Tick>(std::floor((now_s - begin_s_) / dt_s + 1e-6));
-    if (reached < due_) return;
-    const Tick skipped = (reached - due_) / o_.period;
-    if (started_ &&
-        entered_s_ < now_s - static_cast<double>(skipped + 1) * static_cast<double>(o_.period) * dt_s)
-        count_.late += static_cast<std::uint64_t>(skipped);
+    if (reached(now_s) < due_) return;
+    const Tick skipped = (reached(now_s) - due_) / o_.period;
+    count_.late += static_cast<std::uint64_t>(skipped);
     const Tick tick = due_ + skipped * o_.period;
     due_ = tick + o_.period;
     client_->observe(tick);

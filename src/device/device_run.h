@@ -71,6 +71,7 @@ class DeviceRun {
     const Device* oldest(double now_s) const;
     void enter(Phase phase, double now_s);
     void drive(double now_s);
+    Tick reached(double now_s) const;
     void fail(Error error, double now_s);
     template <class Call>
     bool guarded(const char* what, double now_s, Call&& call);

@@ -81,6 +81,7 @@ TEST_F(DeviceRunTest, ASilentDeviceIsNotDrivenAndReturnsWithItsOrders) {
     EXPECT_GT(calls, before);
     EXPECT_EQ(device.speeds, (std::array<int, 2>{4, 5}));
     EXPECT_EQ(run->count().losses, 1u);
+    EXPECT_EQ(run->count().late, 0u);
 }
 
 TEST_F(DeviceRunTest, ALineThatIsCutIsOpenedAgain) {
@@ -115,6 +116,21 @@ TEST_F(DeviceRunTest, AnExceptionStopsTheRobot) {
     EXPECT_EQ(run->phase(), Phase::kOver);
     EXPECT_EQ(run->failure()->code, "client-failed");
     EXPECT_EQ(device.speeds, (std::array<int, 2>{0, 0}));
+}
+
+TEST_F(DeviceRunTest, PeriodsThatAreMissedAreSkippedAndCounted) {
+    std::vector<Tick> ticks;
+    begin([&](Client& client) {
+        ticks.push_back(client.tick());
+        drive(client);
+    });
+    pass(1);
+    const std::size_t before = ticks.size();
+    now += 0.23;  // the computer was busy
+    pass(0.1);
+    EXPECT_GE(run->count().late, 4u);
+    EXPECT_LE(ticks.size(), before + 3);
+    for (const Tick tick : ticks) EXPECT_EQ(tick % 25, 0);
 }
 
 TEST_F(DeviceRunTest, StopEndsItOrderly) {

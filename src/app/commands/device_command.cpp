@@ -242,20 +242,24 @@ void add_device_command(CLI::App& app, int& exit_code) {
     command->add_option("--client", options->program, "the control program: a shared library")->required();
     command->add_option("--robot", options->robots, "name of a robot that is real (may be repeated)")
         ->required()
+        ->allow_extra_args(false)
         ->group(group);
     command
         ->add_option("--connect", options->lines,
                      "its line: serial:PATH[,BAUD] or udp:HOST:PORT, one for each --robot, in their order")
         ->required()
+        ->allow_extra_args(false)
         ->group(group);
     command
         ->add_option("--protocol", options->protocols,
                      "what it speaks: khepera or joints (default); one for all robots or one for each")
         ->check(CLI::IsMember({"khepera", "joints"}))
+        ->allow_extra_args(false)
         ->group(group);
     command
         ->add_option("--camera", options->cameras,
                      "udp:HOST:PORT of a camera that gives poses of robots (may be repeated)")
+        ->allow_extra_args(false)
         ->group(group);
     command->add_option("--duration", options->run.duration_s, "end after this long, s (default: at Ctrl-C)")
         ->check(positive_number());
