@@ -115,7 +115,7 @@ class Khepera:
 
     def send(self, now):
         """As many characters as the line carries since the last call."""
-        elapsed, self.sent_s = now - self.sent_s, now
+        elapsed, self.sent_s = max(0.0, now - self.sent_s), now     # the clock stands still after a stall
         self.credit = min(self.credit + elapsed * self.options.baud / BITS, 64.0) if self.output else 0.0
         size = int(self.credit)
         piece, self.output = self.output[:size], self.output[size:]

@@ -54,8 +54,9 @@ def device(tmp_path, client, *options):
 
 def drive(tmp_path, client, *options):
     """Runs `roboss device` to its end; its summary."""
-    with running(*device(tmp_path, client, *options)) as process:
-        said = process.communicate(timeout=60)[1]
+    patient = ["--give-up", 30]                                 # on a busy computer a stand-in may stall
+    with running(*device(tmp_path, client, *options, *patient)) as process:
+        said = process.communicate(timeout=90)[1]
         assert process.returncode == 0, said
     return json.loads((tmp_path / "device.json").read_text())
 

@@ -19,7 +19,7 @@ class JointsAdapter final : public DeviceAdapter {
     std::vector<std::string> due(double now_s) override;
     Result<> order(const Action& action) override;
     void rest(bool resting) override;
-    bool at_rest() const override { return resting_ && acknowledged_ >= changed_; }
+    bool at_rest() const override { return resting_ && !is_changed_ && acknowledged_ >= changed_; }
     void line_renewed() override {}
 
   private:

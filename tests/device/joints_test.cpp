@@ -80,16 +80,20 @@ TEST_F(JointsProtocol, EachPacketCarriesAllSetpointsAndRestIsAcknowledged) {
     EXPECT_EQ(again.at("joints").at("left"),
               (json{{"mode", "velocity"}, {"target", 6.0}, {"max_effort", 0.02}}));
     EXPECT_EQ(again.at("robot"), "blue_1");
+    json obeyed = readings(2, 0);
+    obeyed["ack"] = again.at("seq"), obeyed["session"] = again.at("session");
+    hear(obeyed);
     adapter->rest(true);
+    EXPECT_FALSE(adapter->at_rest());  // it has not been sent
     const json stop = sent();
     EXPECT_EQ(stop.at("type"), "stop");
     EXPECT_FALSE(stop.contains("joints"));
     EXPECT_FALSE(adapter->at_rest());
-    json answer = readings(2, 0);
+    json answer = readings(3, 0);
     answer["ack"] = stop.at("seq"), answer["session"] = 98;
     hear(answer);
     EXPECT_FALSE(adapter->at_rest());  // of another RoBOSS
-    answer["seq"] = 3, answer["session"] = stop.at("session");
+    answer["seq"] = 4, answer["session"] = stop.at("session");
     hear(answer);
     EXPECT_TRUE(adapter->at_rest());
 }
