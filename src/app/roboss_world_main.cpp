@@ -68,6 +68,10 @@ int main(int argc, char** argv) {
     make_spiders->add_option("--spiders", spiders.spiders, "number of spiders, 1 to 10000")
         ->check(CLI::Range(1, 10000))
         ->capture_default_str();
+    make_spiders
+        ->add_option("--abreast", spiders.abreast, "so many side by side, the others behind; 0: a square")
+        ->check(CLI::Range(0, 10000))
+        ->capture_default_str();
     make_spiders->add_option("--terrain", spiders.terrain, "flat, rubble, slope, steps")
         ->check(CLI::IsMember({"flat", "rubble", "slope", "steps"}))
         ->capture_default_str();

@@ -172,16 +172,17 @@ void add_leg(Text& text, std::size_t leg, std::string_view shell, const SpiderOp
         add_joint(text, spider::kLegNames[leg], part, options);
 }
 
-int rows_of(int spiders) {
-    return static_cast<int>(std::ceil(std::sqrt(spiders)));
+int abreast_of(const SpiderOptions& options) {
+    if (options.abreast > 0) return std::min(options.abreast, options.spiders);
+    return static_cast<int>(std::ceil(std::sqrt(options.spiders)));
 }
 
 void add_spider(Text& text, int number, const SpiderOptions& options) {
-    const int rows = rows_of(options.spiders);
+    const int abreast = abreast_of(options);
     add(text,
         "    <model name=\"spider_{}\">\n      <pose>{} {} 0 0 0 0</pose>\n      "
         "<self_collide>true</self_collide>\n",
-        number, -kSpacing * (number / rows), kSpacing * (number % rows - 0.5 * (rows - 1)));
+        number, -kSpacing * (number / abreast), kSpacing * (number % abreast - 0.5 * (abreast - 1)));
     const char* shell = kShells[static_cast<std::size_t>(number) % kShells.size()];
     add_trunk(text, shell);
     for (std::size_t leg = 0; leg < spider::kLegs; ++leg) add_leg(text, leg, shell, options);
@@ -243,7 +244,7 @@ void add_steps(Text& text, const SpiderOptions& options, double width) {
 }
 
 void add_ground(Text& text, const SpiderOptions& options) {
-    const double width = kSpacing * rows_of(options.spiders) + 0.4;
+    const double width = kSpacing * abreast_of(options) + 0.4;
     add(text, R"(    <model name="ground">
       <static>true</static>
       <link name="link">
