@@ -11,9 +11,8 @@ TURN_GAIN, MOST_TURN, TURN_CHANGE = 0.5, 0.25, 1.0   # likewise
 
 @dataclass
 class Walk:
-    """What N spiders did, (N,) each; from `settled` to the end of the walk but for `way` and `fell`."""
+    """What N spiders did, (N,) each; from `settled` to the end of the walk but for `fell`."""
 
-    way: np.ndarray          # m, ahead, since the begin
     speed: np.ndarray        # m/s, ahead
     fell: np.ndarray         # leaned by more than 60 degrees
     lean: np.ndarray         # rad, largest angle of the trunk's vertical
@@ -37,8 +36,9 @@ class Walker:
         self.spiders = self.simulation.robots("spider_*")
         self.spacing, self.ticks = spacing, round(PERIOD / self.simulation.dt)
 
-    def walk(self, rows, seconds=6.0, settled=3.0):
-        """Walks for `seconds` with gaits (N, numbers), or one for all, and measures from `settled` on."""
+    def steps(self, rows, seconds, each_tick_from=np.inf):
+        """Walks for `seconds` with gaits (N, numbers), or one for all. Yields the time after each control period; from a
+        time on after each tick: torques peak when new targets come, so samples of periods would miss what they cost."""
         spiders, simulation = self.spiders, self.simulation
         simulation.reset()
         rows = np.broadcast_to(rows, (len(spiders), len(self.gaits.names)))
@@ -46,30 +46,31 @@ class Walker:
             pose = spiders.pose.copy()
             pose[:, 0], pose[:, 1] = 0, self.spacing * np.arange(len(spiders))
             spiders.pose = pose
-        turns, begin, samples, late = np.zeros(len(rows)), spiders.pose[:, :2].copy(), [], None
-        orders = None
+        turns, orders = np.zeros(len(rows)), None
         for step in range(round(seconds / PERIOD)):
-            pose = spiders.pose
             # Orders take effect a period after the observation, as those of the control program.
-            wish = np.clip(-TURN_GAIN * _yaw(pose), -MOST_TURN, MOST_TURN)
+            wish = np.clip(-TURN_GAIN * _yaw(spiders.pose), -MOST_TURN, MOST_TURN)
             turns += np.clip(wish - turns, -TURN_CHANGE * PERIOD, TURN_CHANGE * PERIOD)
             following = self.gaits.targets(rows, (step + 1) * PERIOD - STAND, turns)
             if step > 0:
                 spiders.set_joint_targets(orders, mode="position")
-            simulation.step(self.ticks)
             orders = following
-            if (step + 1) * PERIOD >= settled:
-                late = spiders.pose[:, :2].copy() if late is None else late
-                samples.append((_up(spiders.link_pose("trunk")), spiders.link_pose("trunk")[:, 2].copy(),
-                                spiders.joint_velocity.copy(), spiders.joint_effort.copy()))
-        return self._measured(begin, late, samples)
+            for _ in range(self.ticks if step * PERIOD >= each_tick_from else 1):
+                simulation.step(1 if step * PERIOD >= each_tick_from else self.ticks)
+                yield simulation.time
 
-    def _measured(self, begin, late, samples):
+    def walk(self, rows, seconds=6.0, settled=3.0):
+        """Walks and measures from `settled` on."""
+        samples, late, spiders = [], None, self.spiders
+        for time in self.steps(rows, seconds, settled):
+            if time > settled + 1e-9:
+                late = spiders.pose[:, 0].copy() if late is None else late
+                samples.append((upright(spiders.pose), spiders.link_pose("trunk")[:, 2].copy(), spiders.joint_velocity.copy(),
+                                spiders.joint_effort.copy()))
         up, height, velocity, effort = (np.array(values) for values in zip(*samples))
-        way = self.spiders.pose[:, :2]
         quantile = lambda values: np.quantile(np.abs(values), 0.99, axis=0).max(axis=-1)
         power = np.maximum(velocity * effort, 0).sum(axis=2).mean(axis=0)
-        return Walk((way - begin)[:, 0], (way - late)[:, 0] / ((len(samples) - 1) * PERIOD), (up < 0.5).any(axis=0),
+        return Walk((spiders.pose[:, 0] - late) / ((len(samples) - 1) * self.simulation.dt), (up < 0.5).any(axis=0),
                     np.arccos(np.clip(up, -1, 1)).max(axis=0), height.std(axis=0), quantile(velocity), quantile(effort), power)
 
 
@@ -78,6 +79,6 @@ def _yaw(pose):
     return np.arctan2(2 * (x * y + w * z), 1 - 2 * (y * y + z * z))
 
 
-def _up(pose):
-    """z of the trunk's vertical axis in the world."""
+def upright(pose):
+    """z of the trunk's vertical axis in the world: 1 upright, 0 on its side."""
     return 1 - 2 * (pose[:, 3]**2 + pose[:, 4]**2)
