@@ -1,6 +1,6 @@
 """Searches a gait of the spider robot: CMA-ES over its parameters, with many spiders at once in one world.
 
-    python examples/spider/search.py --motor-speed 2.513 -o slow_joints.toml      # the fastest gait of slow joints
+    python examples/spider/search.py --motor-speed 2.513 -o slow.toml      # the fastest gait of slow joints
     python examples/spider/search.py --motor-speed 40 --motor-torque 12 --speed 2 -o two_metres.toml
 
 Needs the package `roboss` (docs/python.md), `pip install cma`, and
@@ -107,9 +107,9 @@ def options_of(arguments):
     parser.add_argument("--motor-torque", type=float, default=4.0, help="bound of every motor, N m (default 4)")
     parser.add_argument("--speed", type=float, help="search the gait of least power at this speed, m/s, instead of the fastest")
     parser.add_argument("--start", help="a file of a gait to begin with")
-    parser.add_argument("--spiders", type=int, default=48, help="that walk at once, a generation (default 48)")
-    parser.add_argument("--generations", type=int, default=60)
-    parser.add_argument("--seconds", type=float, default=4.0, help="of each walk; its second half counts (default 4)")
+    parser.add_argument("--spiders", type=int, default=32, help="that walk at once, a generation (default 32)")
+    parser.add_argument("--generations", type=int, default=60, help="(default 60)")
+    parser.add_argument("--seconds", type=float, default=3.0, help="of each walk; its second half counts (default 3)")
     parser.add_argument("--seed", type=int, default=0)
     parser.add_argument("-o", "--output", required=True, help="file for the best gait (TOML), for ROBOSS_SPIDER_GAIT and --start")
     return parser.parse_args(arguments)

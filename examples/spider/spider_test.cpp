@@ -97,6 +97,10 @@ TEST(SpiderFile, SaysWhatItIsAndWhatIsWrongWithIt) {
     EXPECT_THROW((void)load_gait("no_such.toml"), std::runtime_error);
     for (const auto& file : std::filesystem::directory_iterator(ROBOSS_SPIDER_GAITS))
         EXPECT_GT(load_gait(file.path().string()).stride, 0) << file.path();
+    const Gait walk = load_gait(ROBOSS_SPIDER_GAITS "/walk.toml");
+    for (const GaitField& field : gait_fields())
+        EXPECT_NEAR(walk.*field.member, Gait{}.*field.member, 1e-12)
+            << field.name << ": walk.toml is the default";
 }
 
 std::shared_ptr<const roboss::Model> spiders_on_flat_ground(int spiders) {

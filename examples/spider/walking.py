@@ -27,14 +27,15 @@ class Walker:
 
     Args:
         world: text or file of a world of `roboss-world spiders`.
-        gaits: a Gaits. spacing: m, between neighbours; 0: they stay where the world has them.
+        gaits: a Gaits. spacing: m, between neighbours, who stand on the y axis; None: they stay where the world has them.
+        stagger: m, that each stands further back than the one before.
     """
 
-    def __init__(self, world, gaits, spacing=2.0, threads=None):
+    def __init__(self, world, gaits, spacing=2.0, stagger=0.0, threads=None):
         self.gaits = gaits
         self.simulation = roboss.Simulation(roboss.load(world), threads=threads)
         self.spiders = self.simulation.robots("spider_*")
-        self.spacing, self.ticks = spacing, round(PERIOD / self.simulation.dt)
+        self.spacing, self.stagger, self.ticks = spacing, stagger, round(PERIOD / self.simulation.dt)
 
     def steps(self, rows, seconds, each_tick_from=np.inf):
         """Walks for `seconds` with gaits (N, numbers), or one for all. Yields the time after each control period; from a
@@ -42,10 +43,11 @@ class Walker:
         spiders, simulation = self.spiders, self.simulation
         simulation.reset()
         rows = np.broadcast_to(rows, (len(spiders), len(self.gaits.names)))
-        if self.spacing:
-            pose = spiders.pose.copy()
-            pose[:, 0], pose[:, 1] = 0, self.spacing * np.arange(len(spiders))
-            spiders.pose = pose
+        pose, numbers = spiders.pose.copy(), np.arange(len(spiders))
+        if self.spacing is not None:
+            pose[:, 0], pose[:, 1] = 0, self.spacing * numbers
+        pose[:, 0] -= self.stagger * numbers
+        spiders.pose = pose
         turns, orders = np.zeros(len(rows)), None
         for step in range(round(seconds / PERIOD)):
             # Orders take effect a period after the observation, as those of the control program.
