@@ -169,7 +169,8 @@ class Robots:
     @property
     def joint_effort(self) -> Floats:
         """What the motors of the joints gave, mean over the last tick, (N, joints): N m or N. Zero at the start, and
-        where a motor is off; joint friction, springs and limits are not in it.
+        where a motor is off; joint friction, springs and limits are not in it. That of a motor with gains follows from
+        its target and its present state.
 
         >>> arm = roboss.Simulation(roboss.example("arm.sdf")).robots("arm")
         >>> arm.joint_position = [0, 1.57, 0, 0, 0, 0]                  # stretched out

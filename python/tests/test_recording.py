@@ -11,7 +11,6 @@ import pytest
 import roboss
 from conftest import REPOSITORY
 from roboss import analysis
-from spider import gait, spider_world
 
 CROSSROADS, ARM = roboss.example("crossroads.sdf"), roboss.example("arm.sdf")
 ORDERS = REPOSITORY / "worlds" / "crossroads.jsonl"
@@ -210,24 +209,3 @@ def test_a_walker_s_demand_is_that_of_its_motors(tmp_path):
     joint, = result["tables"]["Demand of each joint"]
     assert joint["Joint"] == "lift" and joint["rms [N]"] == pytest.approx(3) and joint["peak [N]"] == pytest.approx(3)
     assert joint["peak speed [m/s]"] == pytest.approx(0.2 * 3 * (1 + 1 / 2), rel=0.01)
-
-
-def test_a_spider_walks_at_a_cost(tmp_path):
-    sim = roboss.Simulation(spider_world())
-    spider = sim.robots("spider")
-    variables = analysis.Variables(sim, ["spider.pose", "spider.*.effort", "spider.*.velocity"])
-    times, rows = [], []
-    for _ in range(1000):
-        spider.set_joint_targets(gait(sim.time), mode="position")
-        sim.step()
-        times.append(sim.time)
-        rows.append(variables.read())
-    recording = analysis.Recording(np.array(times), variables.columns, np.array(rows))
-    analysis.write(recording, tmp_path / "spider.mcap")
-    tables = json.loads(command("analyse", "walker", tmp_path / "spider.mcap", "--from", 0.8, "--mass", 2.4, "--json", "-o",
-                                tmp_path / "spider.html"))["tables"]
-    cost, = tables["Mechanical cost of transport"]
-    assert cost["Speed [m/s]"] == pytest.approx(0.2, abs=0.06)
-    assert 0 < cost["With recovery"] < cost["Cost"] < 1  # friction takes what the motors give
-    joints = tables["Demand of each joint"]
-    assert len(joints) == 18 and all(0 < row["rms [N m]"] < row["peak [N m]"] <= 4 for row in joints)

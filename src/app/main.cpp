@@ -9,6 +9,7 @@
 #include "app/commands/client_command.h"
 #include "app/commands/cluster_command.h"
 #include "app/commands/control_command.h"
+#include "app/commands/device_command.h"
 #include "app/commands/diff_command.h"
 #include "app/commands/journal_command.h"
 #include "app/commands/new_client_command.h"
@@ -29,6 +30,7 @@ namespace {
 void group_commands(CLI::App& app) {
     const std::pair<const char*, std::vector<const char*>> groups[] = {
         {"Simulate a world", {"run", "check", "snapshot", "sense", "dataset", "new-client"}},
+        {"Drive real robots", {"device"}},
         {"Control and keep a run", {"control", "runs", "save", "replay", "journal", "diff"}},
         {"Look into a run", {"record", "plot", "analyse", "calibrate"}},
         {"Members of a run on several computers", {"controller", "simulator", "client", "view", "cluster"}}};
@@ -55,6 +57,7 @@ int main(int argc, char** argv) {
     roboss::add_sense_command(app, exit_code);
     roboss::add_dataset_command(app, exit_code);
     roboss::add_new_client_command(app, exit_code);
+    roboss::add_device_command(app, exit_code);
     roboss::add_control_command(app, exit_code);
     roboss::add_runs_command(app, exit_code);
     roboss::add_save_command(app, exit_code);

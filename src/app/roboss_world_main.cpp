@@ -9,6 +9,7 @@
 #include "app/worlds/city_world.h"
 #include "app/worlds/joint_grid_world.h"
 #include "app/worlds/soccer_world.h"
+#include "app/worlds/spider_world.h"
 
 namespace {
 
@@ -26,6 +27,21 @@ int write_world(const std::string& text, const std::string& file) {
               << "\n  remedy: give a file in a writable folder with free space for " << text.size()
               << " bytes\n";
     return 3;
+}
+
+/// The subcommand of cells, which fills in its options.
+CLI::App* add_cells(CLI::App& app, roboss::CellOptions& cells) {
+    CLI::App* make = app.add_subcommand(
+        "cells",
+        "cells with an arm of four axes that moves boxes from one conveyor to another, and the "
+        "sensors for it\n(docs/arm-cell.md)");
+    make->add_option("--cells", cells.cells, "number of cells, 1 to 1000")
+        ->check(CLI::Range(1, 1000))
+        ->capture_default_str();
+    make->add_option("--gripper", cells.gripper, "fingers: they hold by friction; suction: a cup")
+        ->check(CLI::IsMember({"fingers", "suction"}))
+        ->capture_default_str();
+    return make;
 }
 
 }  // namespace
@@ -62,20 +78,39 @@ int main(int argc, char** argv) {
         ->check(CLI::IsMember({"small", "middle", "large"}))
         ->capture_default_str();
     roboss::CellOptions cells;
-    CLI::App* make_cells = app.add_subcommand(
-        "cells",
-        "cells with an arm of four axes that moves boxes from one conveyor to another, and the "
-        "sensors for it\n(docs/arm-cell.md)");
-    make_cells->add_option("--cells", cells.cells, "number of cells, 1 to 1000")
-        ->check(CLI::Range(1, 1000))
+    CLI::App* make_cells = add_cells(app, cells);
+    roboss::SpiderOptions spiders;
+    CLI::App* make_spiders = app.add_subcommand("spiders",
+                                                "spider robots with six legs of three joints, 40 cm long, in "
+                                                "a grid on some terrain (docs/spider.md)");
+    make_spiders->add_option("--spiders", spiders.spiders, "number of spiders, 1 to 10000")
+        ->check(CLI::Range(1, 10000))
         ->capture_default_str();
-    make_cells->add_option("--gripper", cells.gripper, "fingers: they hold by friction; suction: a cup")
-        ->check(CLI::IsMember({"fingers", "suction"}))
+    make_spiders
+        ->add_option("--abreast", spiders.abreast, "so many side by side, the others behind; 0: a square")
+        ->check(CLI::Range(0, 10000))
         ->capture_default_str();
-    for (CLI::App* make : {make_city, make_grid, make_soccer, make_cells})
+    make_spiders->add_option("--terrain", spiders.terrain, "flat, rubble, slope, steps")
+        ->check(CLI::IsMember({"flat", "rubble", "slope", "steps"}))
+        ->capture_default_str();
+    make_spiders->add_option("--height", spiders.height_m, "of the largest stones, or of a step, m")
+        ->check(CLI::Range(0.001, 0.5))
+        ->capture_default_str();
+    make_spiders->add_option("--angle", spiders.angle_deg, "of the slope, degrees")
+        ->check(CLI::Range(0.0, 60.0))
+        ->capture_default_str();
+    make_spiders->add_option("--motor-torque", spiders.motor_torque, "bound of every motor, N m")
+        ->check(CLI::PositiveNumber)
+        ->capture_default_str();
+    make_spiders->add_option("--motor-speed", spiders.motor_speed, "bound of every motor, rad/s")
+        ->check(CLI::PositiveNumber)
+        ->capture_default_str();
+    make_spiders->add_option("--seed", spiders.seed, "seed of the stones")->capture_default_str();
+    for (CLI::App* make : {make_city, make_grid, make_soccer, make_spiders, make_cells})
         make->add_option("-o,--output", file, "output file (default, or with -: standard output)");
     CLI11_PARSE(app, argc, argv);
     if (make_cells->parsed()) return write_world(roboss::cell_sdf(cells), file);
     if (make_soccer->parsed()) return write_world(roboss::soccer_sdf(soccer), file);
+    if (make_spiders->parsed()) return write_world(roboss::spider_sdf(spiders), file);
     return write_world(make_grid->parsed() ? roboss::joint_grid_sdf(grid) : roboss::city_sdf(city), file);
 }

@@ -119,12 +119,12 @@ std::size_t Client::sensor(const RobotRef& robot, const SensorRef& sensor) const
 
 Transform Client::pose(const RobotRef& robot, const LinkRef& link) const {
     const RobotId id = this->robot(robot);
-    return link_pose(model().type_of(id), state(id), this->link(id, link));
+    return link_pose(model().type_of(id), state_with(StatePart::kPose, id), this->link(id, link));
 }
 
 Twist Client::twist(const RobotRef& robot, const LinkRef& link) const {
     const RobotId id = this->robot(robot);
-    return link_twist(model().type_of(id), state(id), this->link(id, link));
+    return link_twist(model().type_of(id), state_with(StatePart::kTwist, id), this->link(id, link));
 }
 
 JointState Client::joint(const RobotRef& robot, const JointRef& joint, int axis) const {
@@ -135,7 +135,7 @@ JointState Client::joint(const RobotRef& robot, const JointRef& joint, int axis)
     if (axis < 0 || axis >= info.nv)
         refuse("joint '" + info.name + "' of " + called(known(id)) + " has no axis " + std::to_string(axis),
                "it has " + std::to_string(info.nv) + " degrees of freedom, counted from 0");
-    return joint_state(type, state(id), known_joint, axis);
+    return joint_state(type, state_with(StatePart::kJoints, id), known_joint, axis);
 }
 
 OrderResult Client::set_pose(const RobotRef& robot, const Pose& X_WR) {

@@ -162,7 +162,7 @@ class Client : private SensorSources {
     /// The messages that a radio received since the observation before this one, by time of arrival. A
     /// program that asks at each observation gets each message once.
     /// @throws std::invalid_argument as reading().
-    std::vector<RadioMessage> received(const RobotRef& robot, const SensorRef& radio);
+    virtual std::vector<RadioMessage> received(const RobotRef& robot, const SensorRef& radio);
 
     // --- forces, of the tick that begins now as long as no order takes effect at it (physics/probe.h). The
     // first question of a tick costs about as much as a step of the whole world.
@@ -179,6 +179,12 @@ class Client : private SensorSources {
     Result<> restore_samples(const std::string& bytes);
 
   protected:
+    /// What a question asks of a state. A device may know one and not the other.
+    enum class StatePart { kPose, kTwist, kJoints };
+    /// state(), for a question that needs only this part of it.
+    virtual const RobotState& state_with(StatePart, RobotId robot) const { return state(robot); }
+    /// A reading of the sensor at tick(). Throws if it cannot measure.
+    virtual Sample measure(RobotId robot, std::size_t sensor);
     /// What cameras see at the observed tick; an Error, "no-look", where no visuals are at hand.
     Result<const CameraScene*> camera_scene() override { return SensorSources::camera_scene(); }
     /// The robot; throws if there is none.
@@ -201,7 +207,6 @@ class Client : private SensorSources {
     LinkId link_for_order(RobotId robot, const LinkRef& link) const;
     RobotId robot_named(const std::string& name) const;
     Sample sample(RobotId robot, const SensorRef& sensor, const SensorKind& asked);
-    Sample measure(RobotId robot, std::size_t sensor);
     HeldSamples samples_;
     std::unique_ptr<StepProbe> probe_;                            // made by the first question
     mutable std::unordered_map<std::string, RobotId> robot_ids_;  // made by the first question by name

@@ -56,7 +56,7 @@ const char* name_of(MotorMode mode) {
     return kNames[static_cast<std::size_t>(mode) % 4];
 }
 
-Json joint_json(const RobotType& type, const RobotState& state, JointId id, double dt_s) {
+Json joint_json(const Model& model, const RobotType& type, const RobotState& state, JointId id) {
     const Joint& joint = type.joints[id.index()];
     Json position = Json::array(), velocity = Json::array(), motors = Json::array();
     for (int axis = 0; axis < joint.nv; ++axis) {
@@ -66,7 +66,7 @@ Json joint_json(const RobotType& type, const RobotState& state, JointId id, doub
         const MotorSetpoint& motor = state.motors[type.motor_index(joint, axis)];
         motors.push_back({{"mode", name_of(motor.mode)},
                           {"target", json_of(motor.target)},
-                          {"effort", json_of(motor_effort(motor, dt_s))},
+                          {"effort", json_of(motor_effort(model, type, state, id, axis))},
                           {"max_effort", json_of(motor.max_effort)}});
     }
     return {
@@ -241,7 +241,7 @@ std::string Inspector::robot(RobotId robot) {
     const RobotState& state = *states_[robot.index()];
     Json joints = Json::array(), sensors = Json::array();
     for (std::size_t j = 0; j < type.joints.size(); ++j)
-        joints.push_back(joint_json(type, state, JointId(j), model.dt_s));
+        joints.push_back(joint_json(model, type, state, JointId(j)));
     for (std::size_t s = 0; s < type.sensors.size(); ++s)
         sensors.push_back(json_of(sample(robot, s), model.dt_s));
     const auto v = [&](std::size_t k) { return type.free_base ? state.v[k] : 0.0; };

@@ -101,10 +101,8 @@ void RobotSet::joint_efforts(const RunAccess& run, std::span<double> out) const 
     ROBOSS_CHECK(out.size() == size() * axes_.size(), std::to_string(out.size()) + " numbers");
     double* to = out.data();
     for (const RobotId robot : robots_)
-        for (const JointAxis& axis : axes_) {
-            const std::size_t motor = type_->motor_index(type_->joints[axis.joint.index()], axis.axis);
-            *to++ = motor_effort(run.state(robot).motors[motor], model_->dt_s);
-        }
+        for (const JointAxis& axis : axes_)
+            *to++ = motor_effort(*model_, *type_, run.state(robot), axis.joint, axis.axis);
 }
 
 void RobotSet::energies(const RunAccess& run, std::span<double> out) const {

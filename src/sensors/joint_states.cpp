@@ -9,9 +9,8 @@ namespace {
 void add_joint(const SensorQuery& query, JointId id, JointStatesReading& reading) {
     const RobotType& type = query.type();
     const JointState at = joint_state(type, query.state, id);
-    const std::size_t motor = type.motor_index(type.joints[id.index()], 0);
     reading.positions.push_back(at.position), reading.velocities.push_back(at.velocity);
-    reading.efforts.push_back(motor_effort(query.state.motors[motor], query.model.dt_s));
+    reading.efforts.push_back(motor_effort(query.model, type, query.state, id));
 }
 
 }  // namespace

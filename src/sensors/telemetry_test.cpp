@@ -102,7 +102,7 @@ TEST(JointStates, AreThoseOfAllMovingJointsOrOfTheChosen) {
     for (const std::vector<std::string>& joints : {std::vector<std::string>{}, {"axle"}}) {
         MovingCart cart(JointStatesSpec{joints});
         cart.model->dt_s = 0.002;
-        cart.state.motors[0].impulse = 0.01;
+        cart.state.motors[0].mode = MotorMode::kVelocity, cart.state.motors[0].impulse = 0.01;
         const auto reading = cart.read<JointStatesReading>();
         EXPECT_EQ(reading.positions, (std::vector<double>{0.25}));
         EXPECT_EQ(reading.velocities, (std::vector<double>{0.7}));

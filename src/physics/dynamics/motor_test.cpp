@@ -4,6 +4,8 @@
 #include <support/robots.h>
 #include <support/simulation.h>
 
+#include "physics/dynamics/motor_effort.h"
+
 namespace roboss::test {
 namespace {
 
@@ -174,6 +176,31 @@ TEST(Motor, ServoStopsPushingAtTheAxisMaximumVelocity) {
         tell("fastest, rad/s beyond the maximum", fastest - 0.5);
         EXPECT_NEAR(fastest, 0.5, 1e-6);
         EXPECT_NEAR(hinge.q(), target, 1e-6);
+    }
+}
+
+/// What turned the rod in a tick, less its weight, is what the motor says that it gave: below its bounds, at
+/// its largest torque and at its maximum velocity.
+TEST(Motor, TheEffortThatIsReadIsTheOneThatMovedTheRod) {
+    for (const MotorMode mode : {MotorMode::kPosition, MotorMode::kVelocity, MotorMode::kEffort}) {
+        Hinge hinge(12, true, [](AxisSpec& axis) {
+            axis.position_gain = 60, axis.velocity_gain = 4, axis.max_velocity = 1.5;
+        });
+        hinge.q() = 0.3;
+        hinge.set(mode, mode == MotorMode::kEffort ? 11 : 1.9);
+        const auto& model = hinge.sim->model;
+        double fastest = 0, strongest = 0;
+        for (int i = 0; i < 2000; ++i) {
+            const double weight = -hinge.weight_torque() * std::sin(hinge.q()), before = hinge.v();
+            hinge.sim->step();
+            const double moved = hinge.inertia() * (hinge.v() - before) / 1e-3 - weight;
+            const double read = motor_effort(*model, model->types[0], hinge.sim->states[0], JointId(0u));
+            ASSERT_NEAR(read, moved, 1e-4) << "mode " << static_cast<int>(mode) << ", tick " << i;
+            strongest = std::max(strongest, std::fabs(read)), fastest = std::max(fastest, hinge.v());
+        }
+        const bool yields = mode == MotorMode::kVelocity;  // to the weight, with this gain
+        EXPECT_GT(fastest, yields ? 0.5 : 1.4999);
+        EXPECT_GT(strongest, yields ? 5 : 10.9);
     }
 }
 
