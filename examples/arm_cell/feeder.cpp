@@ -24,6 +24,7 @@ constexpr double kFallen = kBeltTop - 0.05;                  // m: lower, a box 
 
 /// Of a cell.
 struct Stock {
+    Place origin;  // in the world
     std::array<roboss::RobotId, kBoxes> boxes;
     std::array<bool, kBoxes> on_rack{};
     int fed = 0, delivered = 0, fallen = 0;
@@ -39,7 +40,7 @@ class Feeder final : public roboss::ControlProgram {
     void restore(const std::string& memory) override;
 
   private:
-    void look(roboss::Client& client, int cell, Stock& stock) const;
+    void look(roboss::Client& client, Stock& stock) const;
     void feed(roboss::Client& client, int cell, Stock& stock) const;
     void put(roboss::Client& client, roboss::RobotId box, const Place& at, double yaw) const;
     void report_all(double time_s) const;
@@ -53,6 +54,8 @@ void Feeder::start(roboss::Client& client) {
     period_s_ = report_period_s();
     for (int cell = 0; client.model().find_robot(box_name(cell, 0)); ++cell) {
         Stock stock;
+        const roboss::Vec3 base = client.pose(arm_name(cell), roboss::LinkId(0u)).p;
+        stock.origin = {base.x, base.y, 0};
         for (int i = 0; i < kBoxes; ++i) {
             stock.boxes[static_cast<std::size_t>(i)] = client.robot(box_name(cell, i));
             stock.on_rack[static_cast<std::size_t>(i)] = true;
@@ -73,8 +76,8 @@ void Feeder::put(roboss::Client& client, roboss::RobotId box, const Place& at, d
 }
 
 /// Takes away what left on the out belt, or fell.
-void Feeder::look(roboss::Client& client, int cell, Stock& stock) const {
-    const Place origin = cell_origin(cell);
+void Feeder::look(roboss::Client& client, Stock& stock) const {
+    const Place& origin = stock.origin;
     for (int i = 0; i < kBoxes; ++i) {
         const auto n = static_cast<std::size_t>(i);
         if (stock.on_rack[n]) continue;
@@ -90,7 +93,7 @@ void Feeder::look(roboss::Client& client, int cell, Stock& stock) const {
 
 /// Puts the next box onto the belt, if the one before it is far enough away.
 void Feeder::feed(roboss::Client& client, int cell, Stock& stock) const {
-    const Place origin = cell_origin(cell);
+    const Place& origin = stock.origin;
     const auto random = [&](std::uint64_t index) {
         const roboss::NoiseStream stream{client.seed(), static_cast<std::uint32_t>(cell), 0, stock.fed};
         return roboss::random_uniform(stream, index);
@@ -128,7 +131,7 @@ void Feeder::report_all(double time_s) const {
 
 void Feeder::control(roboss::Client& client) {
     for (std::size_t i = 0; i < stocks_.size(); ++i) {
-        look(client, static_cast<int>(i), stocks_[i]);
+        look(client, stocks_[i]);
         feed(client, static_cast<int>(i), stocks_[i]);
     }
     if (client.time_s() < reported_ + period_s_) return;
