@@ -1,12 +1,9 @@
-// The generated cells: the committed file is the generator's, what stands in a cell fits its measures, and
-// wrong options give nothing.
+// The generated cells: what stands in a cell fits its measures, and wrong options give nothing.
 #include "app/worlds/cell_world.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <fstream>
-#include <iterator>
 
 #include "app/worlds/cell_layout.h"
 #include "model/model.h"
@@ -14,13 +11,6 @@
 
 namespace roboss {
 namespace {
-
-TEST(CellWorld, TheCommittedFileIsTheGeneratorsOwn) {
-    std::ifstream file(ROBOSS_WORLDS "/arm_cell.sdf", std::ios::binary);
-    const std::string committed{std::istreambuf_iterator<char>(file), {}};
-    ASSERT_FALSE(committed.empty());
-    EXPECT_TRUE(committed == cell_sdf({})) << "make it again: roboss-world cells -o worlds/arm_cell.sdf";
-}
 
 TEST(CellWorld, NoCellsAndAnUnknownGripperAreEmpty) {
     EXPECT_EQ(cell_sdf({0, "fingers"}), "");

