@@ -61,14 +61,17 @@ def step(sim, robots):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--robots", type=int, default=100)
+    parser.add_argument("--robots", type=int, default=100, help="default: 100")
     parser.add_argument("--seconds", type=float, default=60, help="simulated time")
     parser.add_argument("--view", action="store_true", help="show them on the viewer's page, in real time")
     arguments = parser.parse_args()
+    if arguments.robots < 1:
+        parser.error("give one robot or more")
     sim = roboss.Simulation(crowd_world(arguments.robots))
     robots = sim.robots("robot_*")
-    if arguments.view:
-        print(sim.view().url)
+    view = sim.view() if arguments.view else None
+    if view:
+        print(f"{view.url} for {arguments.seconds:g} s (--seconds)")
     start, way, touched = time.perf_counter(), np.zeros(len(robots)), np.zeros(len(robots), bool)
     while sim.time < arguments.seconds:
         before = robots.pose[:, :2].copy()
@@ -78,8 +81,10 @@ def main():
         if arguments.view:
             time.sleep(max(0.0, start + sim.time - time.perf_counter()))
     wall = time.perf_counter() - start
+    if view:
+        view.close()
     print(f"{len(robots)} robots, {sim.time:.0f} s in {wall:.1f} s ({sim.time / wall:.1f} times real time); "
-          f"way {way.mean():.1f} m each, {touched.sum()} touched something; state hash {sim.state_hash}")
+          f"distance {way.mean():.1f} m each, {touched.sum()} touched something; state hash {sim.state_hash}")
 
 
 if __name__ == "__main__":

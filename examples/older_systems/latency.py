@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Which latency does a control loop bear? A rod is balanced upright by a motor, with delayed measurements.
+"""How much latency can a control loop tolerate? A rod is balanced upright by a motor, with delayed measurements.
 
     python examples/older_systems/latency.py
 
@@ -26,7 +26,7 @@ def rod_world():
     return world.build()
 
 
-def bearable_delay(kp, kd):
+def delay_limit(kp, kd):
     """The longest delay in s at which the loop is stable, by the characteristic equation."""
     inertia = MASS * (LENGTH**2 / 3 + 0.04**2 / 12)
     a, b, c = MASS * 9.8 * LENGTH / 2 / inertia, kp / inertia, kd / inertia
@@ -59,7 +59,9 @@ def main():
     parser.add_argument("--kp", type=float, default=40.0, help="N m/rad")
     parser.add_argument("--kd", type=float, default=8.0, help="N m s/rad")
     arguments = parser.parse_args()
-    limit = bearable_delay(arguments.kp, arguments.kd)
+    if arguments.kp <= MASS * 9.8 * LENGTH / 2 or arguments.kd <= 0:
+        parser.error(f"without latency the rod stands if kp is above m g l / 2 = {MASS * 9.8 * LENGTH / 2:g} N m/rad and kd above 0")
+    limit = delay_limit(arguments.kp, arguments.kd)
     delays = sorted({max(1, round(1000 * limit * share)) for share in (0.2, 0.5, 0.8, 0.95, 1.05, 1.2, 1.5)})
     print(f"limit by the characteristic equation: {1000 * limit:.1f} ms")
     for delay, angle in zip(delays, balance(arguments.kp, arguments.kd, delays)):

@@ -12,19 +12,25 @@ The match is at the origin, the cells stand beside it, the spiders walk on the o
 """
 import argparse
 import subprocess
+import sys
 import tempfile
 import xml.etree.ElementTree as xml
 from pathlib import Path
 
 PROGRAM = Path(__file__).resolve().parents[2] / "build/release/bin/roboss-world"
-CELLS_AT, SPIDERS_AT = (-4.8, 3.0), (0.0, -7.0)            # m: of the first arm; of the middle of the first row
+CELLS_AT, SPIDERS_BEFORE = (-4.8, 3.0), -2.5              # m: of the first arm; y of the nearest row of spiders
 
 
 def generated(program, kind, *options):
     """The <world> that `roboss-world KIND` writes."""
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / "world.sdf"
-        subprocess.run([program, kind, *options, "-o", path], check=True, stdout=subprocess.DEVNULL)
+        try:
+            subprocess.run([program, kind, *options, "-o", path], check=True, stdout=subprocess.DEVNULL)
+        except OSError as error:
+            sys.exit(f"one_world: '{program}' cannot be started: {error.strerror}\n  remedy: tools/build.sh release roboss-world")
+        except subprocess.CalledProcessError:              # it said why
+            sys.exit(1)
         for _, (prefix, uri) in xml.iterparse(path, events=("start-ns",)):
             xml.register_namespace(prefix, uri)
         return xml.parse(path).getroot()
@@ -58,20 +64,24 @@ def join(program, cells, spiders):
         else:
             world.append(moved(model, CELLS_AT))
     walk = generated(program, "spiders", "--spiders", str(spiders)).find("world")
-    for model in walk.findall("model"):
-        if model.get("name") != "ground":
-            world.append(moved(model, SPIDERS_AT))
+    spider_models = [model for model in walk.findall("model") if model.get("name") != "ground"]
+    nearest = max(float(model.find("pose").text.split()[1]) for model in spider_models)
+    for model in spider_models:
+        world.append(moved(model, (0, SPIDERS_BEFORE - nearest)))
     return sdf
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--cells", type=int, default=12)
-    parser.add_argument("--spiders", type=int, default=100)
+    parser.add_argument("--cells", type=int, default=12, help="default: 12")
+    parser.add_argument("--spiders", type=int, default=100, help="default: 100")
     parser.add_argument("--roboss-world", default=PROGRAM, metavar="PATH", help=f"the program (default: {PROGRAM})")
     parser.add_argument("-o", "--output", default="one_world.sdf", metavar="FILE")
     arguments = parser.parse_args()
-    xml.ElementTree(join(arguments.roboss_world, arguments.cells, arguments.spiders)).write(arguments.output, encoding="utf-8")
+    try:
+        xml.ElementTree(join(arguments.roboss_world, arguments.cells, arguments.spiders)).write(arguments.output, encoding="utf-8")
+    except OSError as error:
+        sys.exit(f"one_world: '{arguments.output}' cannot be written: {error.strerror}")
     print(arguments.output)
 
 

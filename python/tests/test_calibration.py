@@ -76,23 +76,99 @@ def test_the_command_writes_the_world_and_tells_the_numbers(slide):
     again = record(roboss.load(slide / "found.sdf"), "box.z", until=0.01)   # the file loads
     assert again["box.z"][-1] == pytest.approx(0.1, abs=1e-4)
     assert command(slide, *words).splitlines()[1].split()[:2] == ["mu", "0.3"]
-    assert sorted(path.name for path in slide.iterdir()) == ["found.sdf", "push.jsonl", "run.parquet", "slide.sdf", "true.sdf"]
+    assert not list(slide.glob(".calibrate*"))
 
 
 @pytest.mark.parametrize("parameter, code", [
     ("mu=.//model[@name='bowl']//mu", "no-number"), ("mu=.//model[@name='box']", "no-number"), ("mu", "bad-value"),
     ("mu=.//model[@name='box'", "bad-path"), (f"mu={MU}@0.5..1", "bad-bounds"), (f"mu={MU}@a..1", "bad-value"),
-    ("dt=.//physics/no_such_number", "no-number"), ("far=.//model[@name='ground']//mu", "no-influence")])
+    ("dt=.//physics/no_such_number", "no-number"), ("far=.//model[@name='ground']//mu", "no-influence"),
+    ("mu=.//mu", "different-numbers")])
 def test_parameters_that_cannot_be_are_refused(slide, parameter, code):
-    error = command(slide, "calibrate", "slide.sdf", "--run", "run.parquet=push.jsonl", "--parameter", parameter, "--quiet", code=1)
+    refused(slide, code, "--run", "run.parquet=push.jsonl", "--parameter", parameter)
+
+
+def refused(folder, code, *words, world="slide.sdf"):
+    error = command(folder, "calibrate", world, *words, "--quiet", code=1)
     assert f"[{code}]" in error and "remedy: " in error
     assert "Traceback" not in error
+    return error
 
 
-def test_recordings_of_other_worlds_are_refused(slide):
-    for recorded, code in (("no.parquet", "no-recording"), ("slide.sdf", "bad-value")):
-        error = command(slide, "calibrate", "slide.sdf", "--run", recorded, "--parameter", f"mu={MU}", code=1)
-        assert f"[{code}]" in error
-    error = command(slide, "calibrate", "slide.sdf", "--run", "run.parquet=push.jsonl", "--parameter", f"mu={MU}",
-                    "--compare", "ball.*", code=1)
-    assert "[nothing-to-compare]" in error
+def test_inputs_that_are_not_there_are_refused_before_anything_is_simulated(slide):
+    parameter = ("--parameter", f"mu={MU}")
+    refused(slide, "no-file", "--run", "no.parquet", *parameter)
+    refused(slide, "no-file", "--run", "run.parquet=no.jsonl", *parameter)
+    refused(slide, "no-file", "--run", "run.parquet=push.jsonl", *parameter, world="no.sdf")
+    refused(slide, "no-file", "--run", "run.parquet=push.jsonl", *parameter, "-o", "no/found.sdf")
+    refused(slide, "no-file", "--run", "run.parquet=push.jsonl", *parameter, "--client", "no.so")
+    refused(slide, "bad-value", "--run", "slide.sdf", *parameter)
+    assert "box.x" in refused(slide, "nothing-to-compare", "--run", "run.parquet=push.jsonl", *parameter, "--compare", "ball.*")
+
+
+def changed(slide, change):
+    """A calibration of mu with a recording that was changed; change(time, x) gives new ones."""
+    clean = read(slide / "run.parquet")
+    time, x = change(clean.time[::8].copy(), clean["box.x"][::8].copy())
+    recording = roboss.analysis.Recording(time, [roboss.analysis.Column("box.x", "box.x", "m")], x[:, None])
+    return calibration.calibrate(slide / "slide.sdf", [calibration.Parameter("mu", tuple(MU.split(",")))],
+                                 [calibration.TestRun(recording, str(slide / "push.jsonl"))])
+
+
+def test_gaps_of_a_tracker_are_left_out(slide):
+    found = changed(slide, lambda time, x: (time, np.where(np.arange(len(x)) % 3 == 1, np.nan, x)))
+    assert found.values[0] == pytest.approx(0.4, rel=1e-3)
+
+
+@pytest.mark.parametrize("change", [lambda time, x: (time + 1.7e9, x), lambda time, x: (time[::-1], x),
+                                    lambda time, x: (time - 1, x), lambda time, x: (time[:1], x[:1])])
+def test_times_that_are_not_those_of_a_run_are_refused(slide, change):
+    with pytest.raises(roboss.ArgumentError, match="times of 'recording'") as error:
+        changed(slide, change)
+    assert error.value.code == "bad-times"
+
+
+def test_a_value_at_its_bound_has_no_interval(slide):
+    words = ["calibrate", "slide.sdf", "--run", "run.parquet=push.jsonl", "--parameter", f"mu={MU}@0.2..0.35", "--quiet"]
+    told = json.loads(command(slide, *words, "--json"))["parameters"][0]
+    assert told["at_bound"] and told["low"] is None and told["value"] == pytest.approx(0.35, rel=1e-3)
+    assert "at its bound" in command(slide, *words)
+
+
+CART = """<?xml version="1.0"?>
+<!-- A cart on a rail. -->
+<robot name="cart"><!-- of steel -->
+<link name="rail"><inertial><mass value="1"/><inertia ixx="1" iyy="1" izz="1" ixy="0" ixz="0" iyz="0"/></inertial></link>
+<link name="car"><inertial><mass value="2"/><inertia ixx="1" iyy="1" izz="1" ixy="0" ixz="0" iyz="0"/></inertial></link>
+<joint name="slide" type="prismatic"><parent link="rail"/><child link="car"/><axis xyz="1 0 0"/>
+<limit lower="-100" upper="100" effort="{effort}" velocity="100"/></joint></robot>
+"""
+
+
+@pytest.fixture(scope="module")
+def cart(tmp_path_factory):
+    """A folder with file.urdf, a cart with a motor of 2 N, and run.parquet of one of 3 N, driven by go.jsonl."""
+    folder = tmp_path_factory.mktemp("cart")
+    for name, effort in (("true", 3.0), ("file", 2.0)):
+        (folder / f"{name}.urdf").write_text(CART.format(effort=effort))
+    (folder / "go.jsonl").write_text('{"t": 0, "robot": "cart", "joint": {"name": "slide", "velocity": 50}}\n')
+    command(folder, "run", "true.urdf", "--fixed-base", "cart", "--orders", "go.jsonl", "--duration", "0.5", "--headless",
+            "--journal", "true.journal")
+    command(folder, "record", "true.journal", "cart.slide.position", "-o", "run.parquet")
+    return folder
+
+
+EFFORT = ("--fixed-base", "cart", "--run", "run.parquet=go.jsonl", "--parameter", "effort=.//limit/@effort")
+
+
+def test_a_urdf_is_run_with_its_options_and_keeps_its_comments(cart):
+    told = json.loads(command(cart, "calibrate", "file.urdf", *EFFORT, "-o", "found.urdf", "--json"))
+    assert told["parameters"][0]["value"] == pytest.approx(3.0, rel=1e-5)
+    assert told["compared"] == ["cart.slide.position"]
+    assert "<!-- of steel -->" in (cart / "found.urdf").read_text()
+
+
+def test_parameters_that_cannot_be_told_apart_are_refused(cart):
+    """The acceleration is effort / mass."""
+    error = refused(cart, "same-influence", *EFFORT, "--parameter", "mass=.//link[@name='car']/inertial/mass/@value", world="file.urdf")
+    assert "effort" in error and "mass" in error

@@ -48,8 +48,8 @@ def test_sonars_look_outwards():
 
 
 @pytest.mark.parametrize("kp, kd", [(40.0, 8.0), (20.0, 3.0)])
-def test_a_loop_bears_the_latency_that_its_characteristic_equation_says(kp, kd):
+def test_a_loop_tolerates_the_latency_that_its_characteristic_equation_says(kp, kd):
     latency = example("latency")
-    limit = 1000 * latency.bearable_delay(kp, kd)          # ms, which are ticks
+    limit = 1000 * latency.delay_limit(kp, kd)          # ms, which are ticks
     angles = latency.balance(kp, kd, [round(0.96 * limit), round(1.04 * limit)])
     assert angles[0] < 0.01 / 2 < 0.02 < angles[1]

@@ -44,7 +44,10 @@ Result<std::unique_ptr<ControlProgram>> load_control_program(const std::string& 
     if (const int abi = version(); abi != kControlProgramAbi)
         return Error{"control program " + path + " was built for interface version " + std::to_string(abi) +
                          ", this is version " + std::to_string(kControlProgramAbi),
-                     "build it again against this version of RoBOSS", "abi-mismatch"};
+                     abi < kControlProgramAbi ? "build it again against this version of RoBOSS"
+                                              : "update this RoBOSS (the Python package: "
+                                                "tools/build_wheel.sh), or build it against this version",
+                     "abi-mismatch"};
     try {
         std::unique_ptr<ControlProgram> program(make());
         if (program) return program;

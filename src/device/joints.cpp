@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <stdexcept>
 
 #include "device/sample_json.h"
 
@@ -31,6 +32,13 @@ const char* name_of(MotorMode mode) {
             break;
     }
     return "passive";
+}
+
+/// A member of a packet; throws if it has none.
+const json& member(const json& packet, const char* name) {
+    const auto found = packet.find(name);
+    if (found != packet.end()) return *found;
+    throw std::runtime_error("it has no member \"" + std::string(name) + "\" (docs/devices.md)");
 }
 
 /// A number that is one; throws else.
@@ -144,13 +152,13 @@ std::optional<std::string> JointsAdapter::read(std::string_view bytes, Packet& p
     const RobotType* type = robot_.valid() ? &model_.type_of(robot_) : nullptr;
     try {
         const json text = json::parse(bytes);
-        if (text.at("roboss") != kJointsVersion)
+        if (member(text, "roboss") != kJointsVersion)
             return "it is of version " + text.at("roboss").dump() + ", this is " +
                    std::to_string(kJointsVersion);
-        if (text.at("type") != "readings") return "its type is " + text.at("type").dump();
-        packet.boot = text.at("boot").get<std::uint64_t>();
-        packet.number = text.at("seq").get<std::uint64_t>();
-        packet.stamp_s = finite(text.at("stamp_s"));
+        if (member(text, "type") != "readings") return "its type is " + text.at("type").dump();
+        packet.boot = member(text, "boot").get<std::uint64_t>();
+        packet.number = member(text, "seq").get<std::uint64_t>();
+        packet.stamp_s = finite(member(text, "stamp_s"));
         if (text.value("session", std::uint64_t{0}) == session_)
             packet.acknowledged = text.value("ack", std::uint64_t{0});
         const json joints = text.value("joints", json::object());

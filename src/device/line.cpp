@@ -4,6 +4,7 @@
 #include <array>
 #include <boost/asio.hpp>
 #include <charconv>
+#include <cstdint>
 #include <deque>
 #include <optional>
 
@@ -203,8 +204,11 @@ Result<std::unique_ptr<DeviceLine>> open_line(const std::string& address) {
         return opened<Serial>(address, place);
     }
     const std::size_t colon = address.rfind(':');
-    if (!address.starts_with("udp:") || colon <= 4 || colon + 1 == address.size())
-        return bad_address(address);
+    if (!address.starts_with("udp:") || colon <= 4) return bad_address(address);
+    std::uint16_t port = 0;
+    const char* const last = address.data() + address.size();
+    const auto [end, failed] = std::from_chars(address.data() + colon + 1, last, port);
+    if (failed != std::errc() || end != last || port == 0) return bad_address(address);
     return opened<Udp>(address, {address.substr(4, colon - 4), address.substr(colon + 1)});
 }
 

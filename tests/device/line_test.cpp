@@ -26,7 +26,7 @@ std::string heard(DeviceLine& line, std::size_t size) {
 
 TEST(DeviceLine, AddressesThatAreNoneAreRefused) {
     for (const char* address : {"", "tty", "serial:", "serial:/dev/tty,fast", "serial:/dev/tty,0", "udp:host",
-                                "udp::5", "udp:host:"})
+                                "udp::5", "udp:host:", "udp:host:0", "udp:host:65536", "udp:host:5x"})
         EXPECT_EQ(open_line(address).error().code, "bad-address") << address;
     EXPECT_EQ(open_line("serial:/dev/no_such_port").error().code, "no-line");
 }

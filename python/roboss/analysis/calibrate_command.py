@@ -1,8 +1,10 @@
 """`roboss calibrate`: numbers of a world file, fitted to recorded runs of the real robot."""
 from __future__ import annotations
 
+import math
 import re
-from typing import Any
+from pathlib import Path
+from typing import Any, Optional
 
 from ..errors import ArgumentError
 from .command import Parser, Progress
@@ -11,16 +13,17 @@ from .recording import read
 
 _EXAMPLES = """Examples:
   roboss calibrate robot.sdf --run straight.parquet=straight.jsonl --run turn.parquet=turn.jsonl \\
-      --parameter "motor=.//joint[@name='left']/axis/limit/effort,.//joint[@name='right']/axis/limit/effort" \\
+      --parameter "motor=.//model[@name='robot']//axis/limit/effort" \\
       --parameter "friction=.//collision[@name='tyre']/surface/friction/ode/mu@0.2..2" -o calibrated.sdf
-  roboss calibrate robot.urdf --run a.parquet=a.jsonl --parameter "mass=.//link[@name='base']/inertial/mass/@value"
+  roboss calibrate robot.urdf --ground --run a.parquet=a.jsonl --parameter "mass=.//link[@name='base']/inertial/mass/@value"
 
 A parameter is NAME=PATH[,PATH ...][@LOW..HIGH]: elements of the file by ElementTree's subset of XPath; /@ATTRIBUTE at
 the end names an attribute. All of them get the same number. Without bounds: a tenth to ten times the value in the file.
+Elements of included files are not searched.
 
 A run is RECORDING[=ORDERS]: a table of `roboss record`, or any Parquet file with a column 'time' (s) and columns named
 as those of `roboss record` (robot.x, robot.yaw, robot.joint.position ...), and the orders that the robot had. The robot
-starts as the file says. Short runs, each ruled by few parameters, tell more than one long run."""
+starts as the file says. Use short runs in which one or two parameters dominate. Empty cells are left out."""
 _RUN = re.compile(r"(.*?\.(?:parquet|mcap))(?:=(.+))?")
 _PARAMETER = re.compile(r"([^=]+)=(.+?)(?:@([^]/'\"]+)\.\.([^]/'\"]+))?")
 
@@ -34,6 +37,10 @@ def parser() -> Parser:
     result.add_argument("--compare", nargs="+", metavar="VARIABLE",
                         help="patterns of what is compared (default: *.x *.y *.yaw *.*.position)")
     result.add_argument("--client", action="append", default=[], metavar="LIB", help="a control program, as of `roboss run`")
+    result.add_argument("--ground", action="store_true", help="add a ground, for a URDF")
+    result.add_argument("--fixed-base", action="append", default=[], metavar="NAME", help="weld this model to the world, for a URDF")
+    result.add_argument("--path", action="append", default=[], metavar="FOLDER", help="where model:// and package:// are looked up")
+    result.add_argument("--dt", type=float, metavar="S", help="time step (default: the world's)")
     result.add_argument("-o", "--output", metavar="FILE", help="write the world with the numbers found")
     add_common(result)
     return result
@@ -41,6 +48,8 @@ def parser() -> Parser:
 
 def run(options: Any) -> Any:
     from .calibration import PATTERNS, Parameter, TestRun, calibrate
+    if options.output and not Path(options.output).absolute().parent.is_dir():
+        raise ArgumentError(f"there is no folder for '{options.output}'", "make it, or choose another one", "no-file")
     parameters = []
     for text in options.parameter:
         found = _PARAMETER.fullmatch(text)
@@ -57,26 +66,51 @@ def run(options: Any) -> Any:
         found = _RUN.fullmatch(text)
         if not found:
             raise ArgumentError(f"a run '{text}'", "write FILE.parquet or FILE.parquet=ORDERS.jsonl", "bad-value")
-        runs.append(TestRun(read(found[1]), found[2]))
-    result = calibrate(options.world, parameters, runs, compare=options.compare or PATTERNS, clients=options.client,
+        runs.append(TestRun(read(_existing(found[1])), found[2] and _existing(found[2]), found[1]))
+    loading = {"ground": options.ground, "fixed_base": options.fixed_base, "dt": options.dt, "search_paths": options.path}
+    result = calibrate(options.world, parameters, runs, compare=options.compare or PATTERNS,
+                       clients=[_existing(client) for client in options.client], options=loading,
                        progress=Progress("calibrate", options.quiet))
     if options.output:
         with open(options.output, "w", encoding="utf-8") as file:
             file.write(result.world)
     if not options.json:
-        width = max(9, *(len(name) for name in result.names))
-        print(f"{'parameter':{width}}  {'file':>10}  {'found':>10}  95 % interval")
-        for n, name in enumerate(result.names):
-            print(f"{name:{width}}  {result.start[n]:10.5g}  {result.values[n]:10.5g}  {result.low[n]:.5g} to {result.high[n]:.5g}")
-        for unit, rms in result.rms.items():
-            print(f"rms difference  {result.rms_before[unit]:.3g} -> {rms:.3g} {unit}")
-        print(f"{result.simulations} simulations" + ("" if result.converged else "; no minimum was found: the last values are shown"))
+        _print(result)
         if options.output:
             print(f"written: {options.output}")
     return {"parameters": [{"name": name, "start": float(result.start[n]), "value": float(result.values[n]),
-                            "low": float(result.low[n]), "high": float(result.high[n])} for n, name in enumerate(result.names)],
-            "correlation": result.correlation.tolist(), "rms": result.rms, "rms_before": result.rms_before,
-            "simulations": result.simulations, "converged": result.converged, "file": options.output}
+                            "low": _number(result.low[n]), "high": _number(result.high[n]), "at_bound": bool(result.at_bound[n])}
+                           for n, name in enumerate(result.names)],
+            "correlation": [[_number(value) for value in row] for row in result.correlation], "compared": result.compared,
+            "rms": result.rms, "rms_before": result.rms_before, "simulations": result.simulations,
+            "converged": result.converged, "file": options.output}
+
+
+def _print(result: Any) -> None:
+    width = max(9, *(len(name) for name in result.names))
+    print(f"{'parameter':{width}}  {'file':>10}  {'found':>10}  95 % interval")
+    for n, name in enumerate(result.names):
+        interval = "at its bound: widen it (@LOW..HIGH)" if result.at_bound[n] else f"{result.low[n]:.5g} to {result.high[n]:.5g}"
+        print(f"{name:{width}}  {result.start[n]:10.5g}  {result.values[n]:10.5g}  {interval}")
+    for first in range(len(result.names)):
+        for second in range(first):
+            if abs(result.correlation[first, second]) > 0.95:
+                print(f"{result.names[second]} and {result.names[first]} are hard to tell apart: their errors have a "
+                      f"correlation of {result.correlation[first, second]:.3f}")
+    print(f"compared: {', '.join(result.compared)}")
+    for unit, rms in result.rms.items():
+        print(f"rms difference  {result.rms_before[unit]:.3g} -> {rms:.3g} {unit}")
+    print(f"{result.simulations} simulations" + ("" if result.converged else "; no minimum was found: the last values are shown"))
+
+
+def _number(value: float) -> Optional[float]:
+    return float(value) if math.isfinite(value) else None
+
+
+def _existing(path: str) -> str:
+    if not Path(path).is_file():
+        raise ArgumentError(f"there is no file '{path}'", "check its name", "no-file")
+    return path
 
 
 def _paths(text: str) -> list[str]:

@@ -1,8 +1,7 @@
 """Calibration: numbers of a world file, fitted to trajectories that were recorded of the real robot.
 
-The residuals r are recorded minus simulated values, each divided by the spread s_u of those of its unit. The optimiser
-(scipy.optimize.least_squares, trust region reflective) finds the parameters that make the sum of squares least. The
-covariance is V = (J^T J)^-1 |r|^2 / (n - p) with the Jacobian J at the end, and the interval of 95 % is the value
+The residuals r are recorded minus simulated values, each divided by the root mean square of its unit. The optimiser
+(scipy.optimize.least_squares, trust region reflective) minimizes the sum of their squares. The covariance is V = (J^T J)^-1 |r|^2 / (n - p) with the Jacobian J at the end, and the interval of 95 % is the value
 +- t(0.975, n - p) sqrt(V_kk): Seber and Wild, Nonlinear Regression, Wiley 1989, sections 2.1 and 5.1.
 """
 from __future__ import annotations
@@ -12,18 +11,21 @@ import tempfile
 import xml.etree.ElementTree as xml
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Callable, Iterable, Iterator, Optional, Sequence, Union
+from typing import Any, Callable, Iterable, Iterator, Mapping, Optional, Sequence, Union
 
 import numpy as np
+from numpy.typing import NDArray
 
-from ..errors import ArgumentError
+from ..errors import ArgumentError, RobossError
 from ..robots import Floats
 from ..simulation import Simulation
 from .recorder import journal_of_run, opened_world, record
-from .recording import Recording, matches
+from .recording import Column, Recording, matches
 from .variables import Variables
 
 _STEP = 1e-3  # of finite differences, relative: friction and impacts are not smooth on smaller scales
+_ALIKE = 1e-6  # ratio of the singular values of the Jacobian below which parameters cannot be told apart
+_SPARE = 0.1   # s that a run is simulated beyond its recording
 PATTERNS = ("*.x", "*.y", "*.yaw", "*.*.position")
 
 
@@ -34,7 +36,7 @@ class Parameter:
     Attributes:
         name: for tables.
         paths: of the elements that hold it (ElementTree's subset of XPath, from the root of the file): all get the value.
-        low, high: its bounds; None: a tenth and ten times the value in the file.
+        low, high: its bounds; None: between a tenth and ten times the value in the file.
     """
 
     name: str
@@ -45,10 +47,11 @@ class Parameter:
 
 @dataclass(frozen=True)
 class TestRun:
-    """A recorded run, and the orders that the robot had in it (a file as of `roboss run --orders`)."""
+    """A recorded run, the orders that the robot had in it (a file as of `roboss run --orders`), and a name for errors."""
 
     recording: Recording
     orders: Optional[str] = None
+    name: str = "recording"
 
 
 @dataclass(frozen=True)
@@ -58,8 +61,10 @@ class Calibration:
     Attributes:
         names: of the parameters.
         start, values: (p,), in the file, and found.
-        low, high: (p,), 95 % confidence intervals.
-        correlation: (p, p), of the errors of the values.
+        low, high: (p,), 95 % confidence intervals; NaN where a value is at its bound.
+        at_bound: (p,) bool, whether a value is at its bound: the minimum is beyond it.
+        correlation: (p, p), of the errors of the values; NaN where there is none, as without noise.
+        compared: names of the columns that were compared.
         rms: root mean squares of what is left between recorded and simulated values, by unit.
         rms_before: the same with the values of the file.
         simulations: how many times all runs were simulated.
@@ -72,7 +77,9 @@ class Calibration:
     values: Floats
     low: Floats
     high: Floats
+    at_bound: NDArray[np.bool_]
     correlation: Floats
+    compared: tuple[str, ...]
     rms: dict[str, float]
     rms_before: dict[str, float]
     simulations: int
@@ -84,15 +91,18 @@ class WorldFile:
     """A world file (SDFormat or URDF) in which numbers can be set.
 
     Raises:
-        ArgumentError: it is no XML (code "no-xml"); a path names no element, or one that is no number ("no-number").
+        ArgumentError: there is no such file (code "no-file"), or it is no XML ("no-xml"); a path names no element, or
+            one that is no number ("no-number"), or several with different numbers ("different-numbers").
     """
 
     def __init__(self, path: Union[str, os.PathLike], parameters: Sequence[Parameter]):
         self.path, self._parameters = Path(path), tuple(parameters)
+        if not self.path.is_file():
+            raise ArgumentError(f"there is no file '{self.path}'", "give an SDFormat or URDF file", "no-file")
         try:
             for _, (prefix, uri) in xml.iterparse(path, events=("start-ns",)):
                 xml.register_namespace(prefix, uri)
-            self._root = xml.parse(path).getroot()
+            self._root = xml.parse(path, xml.XMLParser(target=xml.TreeBuilder(insert_comments=True))).getroot()
         except xml.ParseError as error:
             raise ArgumentError(f"'{self.path}': {error}", "give an SDFormat or URDF file; prefixes need their xmlns", "no-xml") from error
         self._places = [self._found(parameter) for parameter in self._parameters]
@@ -106,7 +116,7 @@ class WorldFile:
                     element.set(attribute, repr(float(value)))
                 else:
                     element.text = repr(float(value))
-        return xml.tostring(self._root, encoding="unicode")
+        return '<?xml version="1.0"?>\n' + xml.tostring(self._root, encoding="unicode") + "\n"
 
     def _found(self, parameter: Parameter) -> list[tuple[xml.Element, float, str]]:
         """Elements with their numbers; a path may end in /@ATTRIBUTE, as URDF needs."""
@@ -121,7 +131,8 @@ class WorldFile:
                                     "bad-path") from error
             if not elements:
                 raise ArgumentError(f"parameter '{parameter.name}': '{self.path}' has no element {path}",
-                                    "the path starts at the root: .//joint[@name='left']/axis/limit/effort", "no-number")
+                                    "the path starts at the root: .//joint[@name='left']/axis/limit/effort; files that "
+                                    "are included are not searched: give that file", "no-number")
             for element in elements:
                 text = element.get(attribute) if attribute else element.text
                 try:
@@ -129,24 +140,33 @@ class WorldFile:
                 except ValueError:
                     raise ArgumentError(f"parameter '{parameter.name}': {path} of '{self.path}' is no number: '{text}'",
                                         "name an element that holds one number", "no-number") from None
+        numbers = sorted({number for _, number, _ in places})
+        if len(numbers) > 1:
+            raise ArgumentError(f"parameter '{parameter.name}': its {len(places)} elements in '{self.path}' hold different "
+                                f"numbers: {', '.join(f'{number:g}' for number in numbers[:6])}",
+                                "all of them would get one value: name those that belong together, for instance "
+                                ".//model[@name='robot']//...", "different-numbers")
         return places
 
 
 def calibrate(world: Union[str, os.PathLike], parameters: Sequence[Parameter], runs: Sequence[TestRun], *,
               compare: Union[str, Iterable[str]] = PATTERNS, clients: Sequence[str] = (),
-              progress: Optional[Callable[[str], None]] = None) -> Calibration:
+              options: Optional[Mapping[str, Any]] = None, progress: Optional[Callable[[str], None]] = None) -> Calibration:
     """Fits numbers of a world file to recorded runs.
 
     Args:
         world: path of the file; its robots start where the recorded ones did.
         parameters: which numbers.
         runs: recordings with the orders of each; times start with the run.
-        compare: patterns of the variables that are compared; columns without a recorded or simulated partner do not count.
+        compare: patterns of the variables that are compared; columns that the world does not have do not count, and
+            neither do samples that are not finite.
         clients: control programs that drive the robots, besides the orders.
+        options: of load(), for a URDF: ground, fixed_base, dt, search_paths.
         progress: is called with a line after each simulation.
 
     Raises:
-        ArgumentError: nothing can be compared (code "nothing-to-compare"), a parameter has no influence ("no-influence"),
+        ArgumentError: nothing can be compared (code "nothing-to-compare"), times do not ascend from 0 ("bad-times"),
+            units differ ("bad-unit"), a parameter has no influence ("no-influence"), two have the same ("same-influence"),
             a number is not there ("no-number") or not between its bounds ("bad-bounds").
         RobossError: a run failed.
     """
@@ -155,46 +175,60 @@ def calibrate(world: Union[str, os.PathLike], parameters: Sequence[Parameter], r
         raise ArgumentError("no parameter, or no recorded run", "give one of each, or more", "nothing-to-compare")
     file = WorldFile(world, parameters)
     low, high = _bounds(parameters, file.start)
-    fit = _Comparison(file, runs, (compare,) if isinstance(compare, str) else tuple(compare), clients, progress)
+    fit = _Comparison(file, runs, (compare,) if isinstance(compare, str) else tuple(compare), clients, options or {}, progress)
     before = fit.differences(file.start)
     spread, values, found, weights = _spread(fit.units, before), file.start, None, None
     for _ in range(2):  # the second time by what the first left: each unit counts by its own noise
         weights = np.array([1 / spread[unit] for unit in fit.units])
-        found = optimize.least_squares(lambda x: fit.differences(x) * weights, values, bounds=(low, high), x_scale=file.start,
+        found = optimize.least_squares(lambda x: fit.differences(x) * weights, values, bounds=(low, high), x_scale=np.abs(file.start),
                                        diff_step=_STEP, xtol=1e-5, ftol=1e-8, gtol=1e-10, max_nfev=60)
         values, spread = found.x, _spread(fit.units, found.fun / weights)
-    count = len(found.fun)
-    idle = np.linalg.norm(found.jac * values, axis=0) < 1e-9 * np.sqrt(count)
-    if idle.any():
-        names = ", ".join(parameter.name for parameter, none in zip(parameters, idle) if none)
-        raise ArgumentError(f"these parameters change nothing in the runs: {names}", "leave them out, or record a run in which they count "
-                            "(of two surfaces the smaller friction does)", "no-influence")
-    freedom = max(1, count - len(values))
-    covariance = np.linalg.pinv(found.jac.T @ found.jac) * (found.fun @ found.fun) / freedom
+    _check_influence([parameter.name for parameter in parameters], found.jac * values, any(run.orders for run in runs))
+    at_bound = found.active_mask != 0
+    freedom = max(1, len(found.fun) - len(values))
+    covariance = np.linalg.inv(found.jac.T @ found.jac) * (found.fun @ found.fun) / freedom
     deviation = np.sqrt(np.diagonal(covariance))
-    half = stats.t.ppf(0.975, freedom) * deviation
+    half = np.where(at_bound, np.nan, stats.t.ppf(0.975, freedom) * deviation)
+    with np.errstate(invalid="ignore", divide="ignore"):
+        correlation = covariance / np.outer(deviation, deviation)
     return Calibration(tuple(parameter.name for parameter in parameters), file.start, values, values - half, values + half,
-                       covariance / np.outer(deviation, deviation), spread, _spread(fit.units, before), fit.simulations,
+                       at_bound, correlation, fit.compared, spread, _spread(fit.units, before), fit.simulations,
                        bool(found.success), file.text(values))
+
+
+def _check_influence(names: Sequence[str], jacobian: Floats, with_orders: bool) -> None:
+    """Refuses parameters that cannot be found; the Jacobian is by relative changes."""
+    lengths = np.linalg.norm(jacobian, axis=0)
+    idle = [name for name, length in zip(names, lengths) if length < 1e-9 * np.sqrt(len(jacobian))]
+    if idle:
+        raise ArgumentError(f"these parameters change nothing in the runs: {', '.join(idle)}",
+                            ("" if with_orders else "give the orders of the run (--run FILE=ORDERS), ")
+                            + "leave them out, or record a run in which they count (of two surfaces the smaller friction does)",
+                            "no-influence")
+    _, sizes, directions = np.linalg.svd(jacobian / lengths, full_matrices=False)
+    if sizes[-1] < _ALIKE * sizes[0]:
+        alike = [name for name, share in zip(names, np.abs(directions[-1])) if share > 0.1]
+        raise ArgumentError(f"these parameters cannot be told apart: {', '.join(alike)}",
+                            "leave one of them out, or record a run in which they differ", "same-influence")
 
 
 class _Comparison:
     """Recorded against simulated values, at the recorded times."""
 
     def __init__(self, file: WorldFile, runs: Sequence[TestRun], patterns: Sequence[str], clients: Sequence[str],
-                 progress: Optional[Callable[[str], None]]):
-        self._file, self._runs, self._clients, self._progress = file, runs, clients, progress
+                 options: Mapping[str, Any], progress: Optional[Callable[[str], None]]):
+        self._file, self._runs, self._clients, self._options, self._progress = file, runs, clients, options, progress
         self.simulations = 0
         self._known: dict[tuple[float, ...], Floats] = {}
-        there = {column.name: column for column in Variables(Simulation(opened_world(file.path))).columns}
+        there = {column.name: column for column in Variables(Simulation(opened_world(file.path, **options))).columns}
         self._columns = [[column for column in run.recording.columns
                           if column.name in there and any(matches(pattern, column) for pattern in patterns)] for run in runs]
-        if not all(self._columns):
-            names = ", ".join(list(dict.fromkeys(column.variable for column in there.values()))[:8])
-            raise ArgumentError("a recording has no variable of the world that is to be compared",
-                                f"record some of {names} ..., or name others (--compare)", "nothing-to-compare")
-        self.units = [there[column.name].unit for run, columns in zip(runs, self._columns) for column in columns
-                      for _ in run.recording.time]
+        self._finite = [[np.isfinite(run.recording[column.name]) for column in columns] for run, columns in zip(runs, self._columns)]
+        for run, columns in zip(runs, self._columns):
+            _check_run(run, columns, there, patterns)
+        self.units = [there[column.name].unit for columns, finite in zip(self._columns, self._finite)
+                      for column, rows in zip(columns, finite) for _ in range(rows.sum())]
+        self.compared = tuple(dict.fromkeys(column.name for columns in self._columns for column in columns))
 
     def differences(self, values: Floats) -> Floats:
         """Recorded minus simulated, column by column of each run."""
@@ -212,18 +246,45 @@ class _Comparison:
                                             encoding="utf-8") as world:  # beside the file, for paths in it are relative
             world.write(self._file.text(values))
             world.flush()
-            for number, (run, columns) in enumerate(zip(self._runs, self._columns)):
+            for number, (run, columns, finite) in enumerate(zip(self._runs, self._columns, self._finite)):
                 at = Path(folder) / str(number)
                 at.mkdir()
-                journal = journal_of_run(world.name, float(run.recording.time[-1]) + 0.1, at, orders=run.orders, clients=self._clients)
+                try:
+                    journal = journal_of_run(world.name, float(run.recording.time[-1]) + _SPARE, at, orders=run.orders,
+                                             clients=self._clients, options=self._options)
+                except RobossError as error:
+                    raise RobossError(error.message.replace(world.name, str(self._file.path)), error.remedy, error.code) from None
                 copy = record(journal, sorted({column.variable for column in columns}), every=0.0)
-                for column in columns:
-                    yield _difference(run.recording, copy, column.name)
+                for column, rows in zip(columns, finite):
+                    yield _difference(run.recording, copy, column.name)[rows]
+
+
+def _check_run(run: TestRun, columns: Sequence[Column], there: Mapping[str, Column], patterns: Sequence[str]) -> None:
+    """Refuses what cannot be compared."""
+    if not columns:
+        names = ", ".join(column.name for column in run.recording.columns[:8]) or "none"
+        world = ", ".join(list(dict.fromkeys(name for name, column in there.items()
+                                             if any(matches(pattern, column) for pattern in patterns)))[:8]) or "none"
+        raise ArgumentError(f"'{run.name}' has no column that is compared with the world; it has {names}",
+                            f"name columns as the world does: {world}; or give other patterns (--compare)", "nothing-to-compare")
+    time = run.recording.time
+    if len(time) < 2 or not np.isfinite(time).all() or time[0] < 0 or not (np.diff(time) > 0).all():
+        raise ArgumentError(f"the times of '{run.name}' do not ascend from 0 on", "give s since the start of the run, two or more",
+                            "bad-times")
+    if time[0] > time[-1] - time[0] + 10:
+        raise ArgumentError(f"the times of '{run.name}' begin at {time[0]:g} s", "subtract the time at which the orders begin",
+                            "bad-times")
+    for column in columns:
+        if column.unit and column.unit != there[column.name].unit:
+            raise ArgumentError(f"'{column.name}' of '{run.name}' is in {column.unit}, not in {there[column.name].unit}",
+                                "convert it", "bad-unit")
 
 
 def _difference(recorded: Recording, simulated: Recording, name: str) -> Floats:
     turns = name.endswith(".yaw")
     values = np.unwrap(simulated[name]) if turns else simulated[name]
+    if not np.isfinite(values).all():
+        raise RobossError(f"'{name}' is not finite in the simulation", "", "not-finite")
     difference = recorded[name] - np.interp(recorded.time, simulated.time, values)
     return (difference + np.pi) % (2 * np.pi) - np.pi if turns else difference
 
@@ -235,10 +296,11 @@ def _spread(units: Sequence[str], differences: Floats) -> dict[str, float]:
 
 
 def _bounds(parameters: Sequence[Parameter], start: Floats) -> tuple[Floats, Floats]:
-    low = np.array([0.1 * value if parameter.low is None else parameter.low for parameter, value in zip(parameters, start)])
-    high = np.array([10 * value if parameter.high is None else parameter.high for parameter, value in zip(parameters, start)])
+    usual = [sorted((0.1 * value, 10 * value)) for value in start]
+    low = np.array([one[0] if parameter.low is None else parameter.low for parameter, one in zip(parameters, usual)])
+    high = np.array([one[1] if parameter.high is None else parameter.high for parameter, one in zip(parameters, usual)])
     for parameter, value, lowest, highest in zip(parameters, start, low, high):
         if not lowest < value < highest or value == 0:
             raise ArgumentError(f"parameter '{parameter.name}' is {value:g} in the file, which is not between {lowest:g} and {highest:g}",
-                                "give bounds around a value above or below 0: NAME=PATH@LOW..HIGH", "bad-bounds")
+                                "give bounds around it, and a value in the file that is not 0: NAME=PATH@LOW..HIGH", "bad-bounds")
     return low, high

@@ -6,7 +6,7 @@ import subprocess
 import tempfile
 import warnings
 from pathlib import Path
-from typing import Callable, Iterable, Iterator, Optional, Sequence, Union
+from typing import Any, Callable, Iterable, Iterator, Mapping, Optional, Sequence, Union
 
 import numpy as np
 
@@ -75,8 +75,10 @@ def masses(world: World, robots: Iterable[str]) -> dict[str, float]:
 
 
 def journal_of_run(world: Union[str, os.PathLike], until: float, folder: Union[str, os.PathLike], *,
-                   orders: Optional[str] = None, clients: Sequence[str] = ()) -> Path:
-    """Runs a world by the program `roboss`, with orders and control programs, and gives the path of its journal.
+                   orders: Optional[str] = None, clients: Sequence[str] = (),
+                   options: Optional[Mapping[str, Any]] = None) -> Path:
+    """Runs a world by the program `roboss`, with orders, control programs and options of load(), and gives the path of
+    its journal.
 
     Raises:
         RobossError: the run failed; the text is what the program printed.
@@ -87,10 +89,21 @@ def journal_of_run(world: Union[str, os.PathLike], until: float, folder: Union[s
     command += ["--orders", orders] if orders else []
     for client in clients:
         command += ["--client", client]
+    command += _words(options or {})
     done = subprocess.run(command, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True, check=False)
     if done.returncode != 0:
         raise RobossError("the run failed:\n" + done.stderr.strip(), "", "run-failed")
     return journal
+
+
+def _words(options: Mapping[str, Any]) -> list[str]:
+    """Options of load() as those of `roboss run`."""
+    words = ["--ground"] if options.get("ground") else []
+    words += ["--dt", repr(options["dt"])] if options.get("dt") else []
+    for option, name in (("--fixed-base", "fixed_base"), ("--path", "search_paths")):
+        for value in options.get(name, ()):
+            words += [option, os.fspath(value)]
+    return words
 
 
 def is_journal(path: Union[str, os.PathLike]) -> bool:

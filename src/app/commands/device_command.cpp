@@ -261,7 +261,9 @@ void add_device_command(CLI::App& app, int& exit_code) {
                      "udp:HOST:PORT of a camera that gives poses of robots (may be repeated)")
         ->allow_extra_args(false)
         ->group(group);
-    command->add_option("--duration", options->run.duration_s, "end after this long, s (default: at Ctrl-C)")
+    command
+        ->add_option("--duration", options->run.duration_s,
+                     "end after driving for this long, s (default: at Ctrl-C)")
         ->check(positive_number());
     command
         ->add_option("--max-age", options->run.max_age_s,
