@@ -1,9 +1,13 @@
 // roboss-world: generates worlds. One subcommand per kind of world.
 #include <CLI/CLI.hpp>
 
-#include <cstdio>
+#include <algorithm>
+#include <array>
 #include <fstream>
+#include <functional>
 #include <iostream>
+#include <memory>
+#include <string>
 
 #include "app/worlds/cell_world.h"
 #include "app/worlds/city_world.h"
@@ -29,19 +33,84 @@ int write_world(const std::string& text, const std::string& file) {
     return 3;
 }
 
-/// The subcommand of cells, which fills in its options.
-CLI::App* add_cells(CLI::App& app, roboss::CellOptions& cells) {
+/// A subcommand, and the world that it makes of its options.
+struct Kind {
+    CLI::App* command = nullptr;
+    std::function<std::string()> sdf;
+};
+
+template <class Options>
+Kind kind(CLI::App* command, const std::shared_ptr<Options>& options, std::string (*sdf)(const Options&)) {
+    return {command, [options, sdf] { return sdf(*options); }};
+}
+
+template <class T>
+CLI::Option* add_option(CLI::App* command, const std::string& name, T& value, const std::string& help,
+                        const CLI::Validator& check) {
+    return command->add_option(name, value, help)->check(check)->capture_default_str();
+}
+
+Kind add_city(CLI::App& app) {
+    auto options = std::make_shared<roboss::CityOptions>();
+    CLI::App* make = app.add_subcommand(
+        "city",
+        "a city of streets, buildings and parked obstacles, with four-wheeled cars that have a laser range\n"
+        "finder, odometer, GPS and gyrocompass; more cars make a larger city of the same density");
+    add_option(make, "--cars", options->cars, "number of cars, 1 to 100000", CLI::Range(1, 100000));
+    make->add_option("--seed", options->seed, "seed of the random layout")->capture_default_str();
+    return kind(make, options, roboss::city_sdf);
+}
+
+Kind add_joint_grid(CLI::App& app) {
+    auto options = std::make_shared<roboss::JointGridOptions>();
+    CLI::App* make = app.add_subcommand(
+        "joint-grid", "a net of plates with a ball joint between neighbours, hanging on two corners");
+    add_option(make, "--rows", options->rows, "1 to 1000", CLI::Range(1, 1000));
+    add_option(make, "--columns", options->columns, "1 to 1000", CLI::Range(1, 1000));
+    return kind(make, options, roboss::joint_grid_sdf);
+}
+
+Kind add_soccer(CLI::App& app) {
+    auto options = std::make_shared<roboss::SoccerOptions>();
+    CLI::App* make = app.add_subcommand(
+        "soccer",
+        "a field of FIRA MiroSot with two teams of two-wheeled cubes and a golf ball (docs/soccer.md)");
+    add_option(make, "--league", options->league, "small: 3 robots a side, middle: 5, large: 11",
+               CLI::IsMember({"small", "middle", "large"}));
+    return kind(make, options, roboss::soccer_sdf);
+}
+
+Kind add_cells(CLI::App& app) {
+    auto options = std::make_shared<roboss::CellOptions>();
     CLI::App* make = app.add_subcommand(
         "cells",
         "cells with an arm of four axes that moves boxes from one conveyor to another, and the "
         "sensors for it\n(docs/arm-cell.md)");
-    make->add_option("--cells", cells.cells, "number of cells, 1 to 1000")
-        ->check(CLI::Range(1, 1000))
-        ->capture_default_str();
-    make->add_option("--gripper", cells.gripper, "fingers: they hold by friction; suction: a cup")
-        ->check(CLI::IsMember({"fingers", "suction"}))
-        ->capture_default_str();
-    return make;
+    add_option(make, "--cells", options->cells, "number of cells, 1 to 1000", CLI::Range(1, 1000));
+    add_option(make, "--gripper", options->gripper, "fingers: they hold by friction; suction: a cup",
+               CLI::IsMember({"fingers", "suction"}));
+    return kind(make, options, roboss::cell_sdf);
+}
+
+Kind add_spiders(CLI::App& app) {
+    auto options = std::make_shared<roboss::SpiderOptions>();
+    CLI::App* make = app.add_subcommand("spiders",
+                                        "spider robots with six legs of three joints, 40 cm long, in a grid "
+                                        "on some terrain (docs/spider.md)");
+    add_option(make, "--spiders", options->spiders, "number of spiders, 1 to 10000", CLI::Range(1, 10000));
+    add_option(make, "--abreast", options->abreast, "so many side by side, the others behind; 0: a square",
+               CLI::Range(0, 10000));
+    add_option(make, "--terrain", options->terrain, "flat, rubble, slope, steps",
+               CLI::IsMember({"flat", "rubble", "slope", "steps"}));
+    add_option(make, "--height", options->height_m, "of the largest stones, or of a step, m",
+               CLI::Range(0.001, 0.5));
+    add_option(make, "--angle", options->angle_deg, "of the slope, degrees", CLI::Range(0.0, 60.0));
+    add_option(make, "--motor-torque", options->motor_torque, "bound of every motor, N m, 0.01 to 1000",
+               CLI::Range(0.01, 1000.0));
+    add_option(make, "--motor-speed", options->motor_speed, "bound of every motor, rad/s, 0.01 to 1000",
+               CLI::Range(0.01, 1000.0));
+    make->add_option("--seed", options->seed, "seed of the stones")->capture_default_str();
+    return kind(make, options, roboss::spider_sdf);
 }
 
 }  // namespace
@@ -49,68 +118,18 @@ CLI::App* add_cells(CLI::App& app, roboss::CellOptions& cells) {
 int main(int argc, char** argv) {
     CLI::App app{
         "Generates worlds for RoBOSS, as SDF files.\n"
-        "Exit codes: 0 done, 3 the file cannot be written, others: wrong usage."};
+        "Exit codes: 0 done, 2 wrong usage, 3 the file cannot be written."};
     app.require_subcommand(1);
-    roboss::CityOptions city;
     std::string file;
-    CLI::App* make_city = app.add_subcommand(
-        "city",
-        "a city of streets, buildings and parked obstacles, with four-wheeled cars that have a laser range\n"
-        "finder, odometer, GPS and gyrocompass; more cars make a larger city of the same density");
-    make_city->add_option("--cars", city.cars, "number of cars, 1 to 100000")
-        ->check(CLI::Range(1, 100000))
-        ->capture_default_str();
-    make_city->add_option("--seed", city.seed, "seed of the random layout")->capture_default_str();
-    roboss::JointGridOptions grid;
-    CLI::App* make_grid = app.add_subcommand(
-        "joint-grid", "a net of plates with a ball joint between neighbours, hanging on two corners");
-    make_grid->add_option("--rows", grid.rows, "1 to 1000")
-        ->check(CLI::Range(1, 1000))
-        ->capture_default_str();
-    make_grid->add_option("--columns", grid.columns, "1 to 1000")
-        ->check(CLI::Range(1, 1000))
-        ->capture_default_str();
-    roboss::SoccerOptions soccer;
-    CLI::App* make_soccer = app.add_subcommand(
-        "soccer",
-        "a field of FIRA MiroSot with two teams of two-wheeled cubes and a golf ball (docs/soccer.md)");
-    make_soccer->add_option("--league", soccer.league, "small: 3 robots a side, middle: 5, large: 11")
-        ->check(CLI::IsMember({"small", "middle", "large"}))
-        ->capture_default_str();
-    roboss::CellOptions cells;
-    CLI::App* make_cells = add_cells(app, cells);
-    roboss::SpiderOptions spiders;
-    CLI::App* make_spiders = app.add_subcommand("spiders",
-                                                "spider robots with six legs of three joints, 40 cm long, in "
-                                                "a grid on some terrain (docs/spider.md)");
-    make_spiders->add_option("--spiders", spiders.spiders, "number of spiders, 1 to 10000")
-        ->check(CLI::Range(1, 10000))
-        ->capture_default_str();
-    make_spiders
-        ->add_option("--abreast", spiders.abreast, "so many side by side, the others behind; 0: a square")
-        ->check(CLI::Range(0, 10000))
-        ->capture_default_str();
-    make_spiders->add_option("--terrain", spiders.terrain, "flat, rubble, slope, steps")
-        ->check(CLI::IsMember({"flat", "rubble", "slope", "steps"}))
-        ->capture_default_str();
-    make_spiders->add_option("--height", spiders.height_m, "of the largest stones, or of a step, m")
-        ->check(CLI::Range(0.001, 0.5))
-        ->capture_default_str();
-    make_spiders->add_option("--angle", spiders.angle_deg, "of the slope, degrees")
-        ->check(CLI::Range(0.0, 60.0))
-        ->capture_default_str();
-    make_spiders->add_option("--motor-torque", spiders.motor_torque, "bound of every motor, N m")
-        ->check(CLI::PositiveNumber)
-        ->capture_default_str();
-    make_spiders->add_option("--motor-speed", spiders.motor_speed, "bound of every motor, rad/s")
-        ->check(CLI::PositiveNumber)
-        ->capture_default_str();
-    make_spiders->add_option("--seed", spiders.seed, "seed of the stones")->capture_default_str();
-    for (CLI::App* make : {make_city, make_grid, make_soccer, make_spiders, make_cells})
-        make->add_option("-o,--output", file, "output file (default, or with -: standard output)");
-    CLI11_PARSE(app, argc, argv);
-    if (make_cells->parsed()) return write_world(roboss::cell_sdf(cells), file);
-    if (make_soccer->parsed()) return write_world(roboss::soccer_sdf(soccer), file);
-    if (make_spiders->parsed()) return write_world(roboss::spider_sdf(spiders), file);
-    return write_world(make_grid->parsed() ? roboss::joint_grid_sdf(grid) : roboss::city_sdf(city), file);
+    const std::array kinds{add_city(app), add_joint_grid(app), add_soccer(app), add_cells(app),
+                           add_spiders(app)};
+    for (const Kind& each : kinds)
+        each.command->add_option("-o,--output", file, "output file (default, or with -: standard output)");
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::ParseError& e) {
+        return app.exit(e) == 0 ? 0 : 2;
+    }
+    const auto* const chosen = std::ranges::find_if(kinds, [](const Kind& k) { return k.command->parsed(); });
+    return write_world(chosen->sdf(), file);
 }
