@@ -98,7 +98,7 @@ Kind add_spiders(CLI::App& app) {
                                         "spider robots with six legs of three joints, 40 cm long, in a grid "
                                         "on some terrain (docs/spider.md)");
     add_option(make, "--spiders", options->spiders, "number of spiders, 1 to 10000", CLI::Range(1, 10000));
-    add_option(make, "--abreast", options->abreast, "so many side by side, the others behind; 0: a square",
+    add_option(make, "--abreast", options->abreast, "number of spiders in a row; 0: as many as rows",
                CLI::Range(0, 10000));
     add_option(make, "--terrain", options->terrain, "flat, rubble, slope, steps",
                CLI::IsMember({"flat", "rubble", "slope", "steps"}));

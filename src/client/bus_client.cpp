@@ -28,9 +28,7 @@ Result<> BusClient::order(RobotId robot, const Action& action) {
 }
 
 Error BusClient::report_refusal(Error error) {
-    constexpr std::size_t kTextsMost = 100;
-    if (refused_texts_.size() < kTextsMost && refused_texts_.insert(error.text()).second)
-        refusals_.push_back("an order was refused: " + error.text());
+    refusals_.add_order(error);
     return error;
 }
 
@@ -59,7 +57,7 @@ void BusClient::handle(Envelope& envelope) {
     } else if (const auto* unknown = std::get_if<ClientUnknown>(&envelope.message)) {
         if (unknown->client == id_) join_again();
     } else if (const auto* refused = std::get_if<Refused>(&envelope.message)) {
-        refusals_.push_back(refused->reason);
+        refusals_.add(refused->reason);
     } else if (auto* answer = std::get_if<ControlReply>(&envelope.message)) {
         if (requests_.empty() || requests_.front().number != answer->number) return;
         answers_.push_back({std::move(requests_.front().action), std::move(answer->outcome)});
@@ -101,7 +99,7 @@ void BusClient::take_welcome(const ClientWelcome& welcome) {
 }
 
 std::vector<std::string> BusClient::take_refusals() {
-    std::vector<std::string> refusals = std::exchange(refusals_, {});
+    std::vector<std::string> refusals = refusals_.take();
     for (const RefusedOrder& r : take_refused_orders())
         refusals.push_back("order " + std::to_string(r.sequence) + ": " + r.reason);
     return refusals;

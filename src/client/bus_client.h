@@ -6,11 +6,11 @@
 #include <deque>
 #include <map>
 #include <memory>
-#include <set>
 
 #include "bus/bus.h"
 #include "bus/state_pull.h"
 #include "client/client.h"
+#include "client/refusals.h"
 #include "render/camera_scene.h"
 
 namespace roboss {
@@ -136,8 +136,7 @@ class BusClient : public Client {
     std::uint64_t request_ = 0;
     std::deque<ControlRequest> requests_;  // the first is sent again until it is answered, then the next
     std::vector<ControlAnswer> answers_;
-    std::vector<std::string> refusals_;
-    std::set<std::string> refused_texts_;  // that were reported
+    Refusals refusals_;
     std::vector<RefusedOrder> refused_orders_;
     std::uint64_t refused_up_to_ = 0;  // sequence number of the last refusal taken
     std::string over_;

@@ -64,7 +64,7 @@ class DeviceAdapter {
     /// Latches an order for its robot, which check_order() has accepted. An Error says what the device cannot
     /// do.
     virtual Result<> order(const Action& action) = 0;
-    /// While it rests, the device is told to stop, whatever was ordered; afterwards the orders hold again.
+    /// While it rests, the device gets the command to stop, whatever was ordered; then the orders hold again.
     virtual void rest(bool resting) = 0;
     /// Whether the device has acknowledged that it rests.
     virtual bool at_rest() const = 0;

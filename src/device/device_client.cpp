@@ -132,9 +132,7 @@ Result<const CameraScene*> DeviceClient::camera_scene() {
 }
 
 Error DeviceClient::report_refusal(Error error) {
-    constexpr std::size_t kTextsMost = 100;
-    if (refused_texts_.size() < kTextsMost && refused_texts_.insert(error.text()).second)
-        refusals_.push_back("an order was refused: " + error.text());
+    refusals_.add_order(error);
     return error;
 }
 

@@ -5,11 +5,11 @@
 
 #include <functional>
 #include <memory>
-#include <set>
 #include <string>
 #include <vector>
 
 #include "client/client.h"
+#include "client/refusals.h"
 #include "device/adapter.h"
 
 namespace roboss {
@@ -42,7 +42,7 @@ class DeviceClient final : public Client {
     /// Shows what the devices said last, as the observation at `tick`.
     void observe(Tick tick);
     /// Texts of refused orders since the last call, each kind once.
-    std::vector<std::string> take_refusals() { return std::exchange(refusals_, {}); }
+    std::vector<std::string> take_refusals() { return refusals_.take(); }
 
   private:
     const RobotState& state_with(StatePart part, RobotId robot) const override;
@@ -65,8 +65,7 @@ class DeviceClient final : public Client {
     std::vector<bool> posed_, jointed_;  // by RobotId: what is known of states_
     Others others_;
     std::vector<ControlAnswer> answers_;
-    std::vector<std::string> refusals_;
-    std::set<std::string> refused_texts_;
+    Refusals refusals_;
 };
 
 }  // namespace roboss

@@ -95,8 +95,8 @@ def _print(result: Any) -> None:
     for first in range(len(result.names)):
         for second in range(first):
             if abs(result.correlation[first, second]) > 0.95:
-                print(f"{result.names[second]} and {result.names[first]} are hard to tell apart: their errors have a "
-                      f"correlation of {result.correlation[first, second]:.3f}")
+                print(f"{result.names[second]} and {result.names[first]} are hardly identifiable: the correlation of their "
+                      f"errors is {result.correlation[first, second]:.3f}")
     print(f"compared: {', '.join(result.compared)}")
     for unit, rms in result.rms.items():
         print(f"rms difference  {result.rms_before[unit]:.3g} -> {rms:.3g} {unit}")

@@ -24,7 +24,7 @@ from .recording import Column, Recording, matches
 from .variables import Variables
 
 _STEP = 1e-3  # of finite differences, relative: friction and impacts are not smooth on smaller scales
-_ALIKE = 1e-6  # ratio of the singular values of the Jacobian below which parameters cannot be told apart
+_ALIKE = 1e-6  # ratio of the singular values of the Jacobian below which parameters are not identifiable
 _SPARE = 0.1   # s that a run is simulated beyond its recording
 PATTERNS = ("*.x", "*.y", "*.yaw", "*.*.position")
 
@@ -208,7 +208,7 @@ def _check_influence(names: Sequence[str], jacobian: Floats, with_orders: bool) 
     _, sizes, directions = np.linalg.svd(jacobian / lengths, full_matrices=False)
     if sizes[-1] < _ALIKE * sizes[0]:
         alike = [name for name, share in zip(names, np.abs(directions[-1])) if share > 0.1]
-        raise ArgumentError(f"these parameters cannot be told apart: {', '.join(alike)}",
+        raise ArgumentError(f"these parameters are not separately identifiable: {', '.join(alike)}",
                             "leave one of them out, or record a run in which they differ", "same-influence")
 
 

@@ -45,7 +45,7 @@ Protocols, and what happens when a line fails: docs/devices.md.
 
 Exit codes: 0 the time is over, or the run of the twin has ended; 1 the world, the program or a line cannot be used; 2
 wrong usage; 3 the program threw an exception, or a device was silent for longer than --give-up; 130 Ctrl-C. The robots
-are told to stop in each case.)";
+get the command to stop in each case.)";
 
 struct DeviceOptions {
     MemberOptions member;

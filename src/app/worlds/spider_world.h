@@ -9,7 +9,7 @@ namespace roboss {
 
 struct SpiderOptions {
     int spiders = 1;
-    int abreast = 0;               // so many side by side, the others behind; 0: a square
+    int abreast = 0;               // number of spiders in a row; 0: as many as rows
     std::string terrain = "flat";  // flat, rubble, slope, steps
     double height_m = 0.03;        // of the largest stones, of a step
     double angle_deg = 10;         // of the slope
