@@ -186,7 +186,8 @@ void describe(const aiScene& scene, const aiMaterial& material, bool collada, Me
     if (material.Get(AI_MATKEY_COLOR_DIFFUSE, diffuse) == aiReturn_SUCCESS)
         part.rgb = Vec3{static_cast<double>(diffuse.r), static_cast<double>(diffuse.g),
                         static_cast<double>(diffuse.b)};
-    if (!part.colour.name.empty() && (collada || !part.rgb || norm(*part.rgb) < 1e-6)) part.rgb = Vec3{1, 1, 1};
+    if (!part.colour.name.empty() && (collada || !part.rgb || norm(*part.rgb) < 1e-6))
+        part.rgb = Vec3{1, 1, 1};
     if (material.Get(AI_MATKEY_OPACITY, opacity) == aiReturn_SUCCESS && opacity > 0 && opacity <= 1)
         part.alpha = static_cast<double>(opacity);
 }

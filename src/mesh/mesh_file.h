@@ -24,15 +24,16 @@ struct MeshFile {
 };
 
 /// Corners with equal coordinates are joined, nodes' transforms and COLLADA's unit are applied, COLLADA's up
-/// axis is not (as in Gazebo); glTF's axes are taken as they stand. Coordinates have the digits of single precision, as assimp reads them. Errors:
-/// no such file, not a mesh, no triangles, a coordinate that is not finite or beyond 1e6 m, more than two
-/// million triangles, no such part.
+/// axis is not (as in Gazebo); glTF's axes are taken as they stand. Coordinates have the digits of single
+/// precision, as assimp reads them. Errors: no such file, not a mesh, no triangles, a coordinate that is not
+/// finite or beyond 1e6 m, more than two million triangles, no such part.
 Result<MeshFile> read_mesh(const MeshRequest& request);
 
 /// A picture that a mesh file names, or holds.
 struct MeshPicture {
-    std::string name;                 // empty: none
-    std::vector<std::uint8_t> bytes;  // a PNG or JPEG file inside the mesh file (glTF); empty: a file beside it
+    std::string name;  // empty: none
+    std::vector<std::uint8_t>
+        bytes;  // a PNG or JPEG file inside the mesh file (glTF); empty: a file beside it
 };
 
 /// What the triangles of one material look like.
