@@ -11,7 +11,7 @@
 
 #include "client/plugin.h"
 #include "firasim.h"
-#include "protobuf.h"
+#include "firasim.pb.h"
 #include "sdf/load_world.h"
 #include "simulation/simulation.h"
 
@@ -112,16 +112,6 @@ class TeamSocket {
     int socket_, port_ = 0;
 };
 
-/// Fields of this number in a message.
-std::vector<protobuf::Field> fields(std::string_view bytes, std::uint32_t number) {
-    std::vector<protobuf::Field> found;
-    protobuf::Reader reader(bytes);
-    while (const auto field = reader.next())
-        if (field->number == number) found.push_back(*field);
-    EXPECT_FALSE(reader.damaged());
-    return found;
-}
-
 TEST(Bridge, ATeamElsewhereDrivesARobotAndSeesIt) {
     TeamSocket team;
     int port = 0;
@@ -139,22 +129,20 @@ TEST(Bridge, ATeamElsewhereDrivesARobotAndSeesIt) {
     auto simulation = roboss::Simulation::create(model, {}, std::move(programs)).value();
     // The bridge is free-running: it drives when it gets to it, here within some frames.
     double speed = 0;
-    std::string vision;
-    for (int frame = 1; frame < 2000 && !(speed > 0.6 && !vision.empty()); ++frame) {
+    messages::FiraEnvironment seen;
+    for (int frame = 1; frame < 2000 && speed < 0.6; ++frame) {
         ASSERT_TRUE(simulation->run_until(8 * frame).ok());
         team.send(kCommands, port);
         const std::string newest = team.newest();
         if (newest.empty()) continue;
-        vision = newest;
-        const std::string_view seen = fields(vision, 2).at(0).bytes;  // Environment.frame
-        ASSERT_EQ(fields(seen, 2).size(), 3u);
-        ASSERT_EQ(fields(seen, 3).size(), 3u);
-        speed = fields(fields(seen, 3)[1].bytes, 5).at(0).real();  // robots_blue[1].vx
+        ASSERT_TRUE(seen.ParseFromString(newest));
+        ASSERT_EQ(seen.frame().robots_yellow_size(), 3);
+        ASSERT_EQ(seen.frame().robots_blue_size(), 3);
+        speed = seen.frame().robots_blue(1).vx();
     }
     EXPECT_NEAR(speed, 30 * kWheelRadius, 0.06);
-    const std::string_view field = fields(vision, 3).at(0).bytes;
-    EXPECT_EQ(fields(field, 1).at(0).real(), 1.3);
-    EXPECT_EQ(fields(field, 2).at(0).real(), 1.5);
+    EXPECT_EQ(seen.field().width(), 1.3);
+    EXPECT_EQ(seen.field().length(), 1.5);
 }
 
 }  // namespace
