@@ -1,8 +1,5 @@
 // FIRASim's messages, as its published classes write them, and a team that drives a robot over UDP.
-#include <arpa/inet.h>
 #include <gtest/gtest.h>
-#include <sys/socket.h>
-#include <unistd.h>
 
 #include <cstdlib>
 #include <memory>
@@ -14,16 +11,10 @@
 #include "firasim.pb.h"
 #include "sdf/load_world.h"
 #include "simulation/simulation.h"
+#include "team_socket.h"
 
 namespace soccer {
 namespace {
-
-std::string from_hex(const std::string& hex) {
-    std::string bytes;
-    for (std::size_t i = 0; i + 1 < hex.size(); i += 2)
-        bytes.push_back(static_cast<char>(std::stoi(hex.substr(i, 2), nullptr, 16)));
-    return bytes;
-}
 
 // Written by the classes that protoc made of FIRASim's files (rsoccer-gym 1.4), with protobuf 3.19.
 const std::string kCommands = from_hex(
@@ -73,52 +64,9 @@ TEST(FiraSim, DamagedBytesAreNoPacketAndNeverCrash) {
     EXPECT_FALSE(firasim::packet_of(kCommands.substr(0, kCommands.size() - 1)));
 }
 
-/// A socket of a team's program, at any free port.
-class TeamSocket {
-  public:
-    TeamSocket() : socket_(::socket(AF_INET, SOCK_DGRAM | SOCK_NONBLOCK, 0)) {
-        sockaddr_in address = at(0);
-        EXPECT_EQ(::bind(socket_, reinterpret_cast<sockaddr*>(&address), sizeof address), 0);
-        socklen_t size = sizeof address;
-        getsockname(socket_, reinterpret_cast<sockaddr*>(&address), &size);
-        port_ = ntohs(address.sin_port);
-    }
-    ~TeamSocket() { ::close(socket_); }
-    TeamSocket(const TeamSocket&) = delete;
-    TeamSocket& operator=(const TeamSocket&) = delete;
-
-    int port() const { return port_; }
-    void send(const std::string& bytes, int port) const {
-        const sockaddr_in address = at(port);
-        (void)sendto(socket_, bytes.data(), bytes.size(), 0, reinterpret_cast<const sockaddr*>(&address),
-                     sizeof address);
-    }
-    /// The newest datagram; empty: none.
-    std::string newest() const {
-        std::string bytes, buffer(65536, '\0');
-        for (ssize_t size = 0; (size = recv(socket_, buffer.data(), buffer.size(), 0)) > 0;)
-            bytes = buffer.substr(0, static_cast<std::size_t>(size));
-        return bytes;
-    }
-
-  private:
-    static sockaddr_in at(int port) {
-        sockaddr_in address{};
-        address.sin_family = AF_INET;
-        address.sin_port = htons(static_cast<std::uint16_t>(port));
-        inet_pton(AF_INET, "127.0.0.1", &address.sin_addr);
-        return address;
-    }
-    int socket_, port_ = 0;
-};
-
 TEST(Bridge, ATeamElsewhereDrivesARobotAndSeesIt) {
     TeamSocket team;
-    int port = 0;
-    {
-        const TeamSocket free_port;
-        port = free_port.port();
-    }
+    const int port = TeamSocket().port();  // free again
     ::setenv("ROBOSS_SOCCER_COMMANDS", ("127.0.0.1:" + std::to_string(port)).c_str(), 1);
     ::setenv("ROBOSS_SOCCER_VISION", ("127.0.0.1:" + std::to_string(team.port())).c_str(), 1);
     roboss::Diagnostics diagnostics;

@@ -74,9 +74,12 @@ Kind add_soccer(CLI::App& app) {
     auto options = std::make_shared<roboss::SoccerOptions>();
     CLI::App* make = app.add_subcommand(
         "soccer",
-        "a field of FIRA MiroSot with two teams of two-wheeled cubes and a golf ball (docs/soccer.md)");
-    add_option(make, "--league", options->league, "small: 3 robots a side, middle: 5, large: 11",
-               CLI::IsMember({"small", "middle", "large"}));
+        "a field of robot soccer with two teams and a golf ball (docs/soccer.md): FIRA MiroSot with\n"
+        "two-wheeled cubes, or RoboCup's Small Size League with robots of four omnidirectional wheels");
+    add_option(
+        make, "--league", options->league,
+        "MiroSot: small (3 robots a side), middle (5), large (11); Small Size League: ssl-b (6), ssl-a (11)",
+        CLI::IsMember({"small", "middle", "large", "ssl-a", "ssl-b"}));
     return kind(make, options, roboss::soccer_sdf);
 }
 

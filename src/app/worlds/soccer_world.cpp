@@ -10,7 +10,9 @@
 #include <utility>
 
 #include "app/text.h"
+#include "app/worlds/soccer_boxes.h"
 #include "app/worlds/soccer_field.h"
+#include "app/worlds/ssl_world.h"
 #include "core/fixed_math.h"
 
 namespace roboss {
@@ -77,22 +79,6 @@ constexpr const char* kWheel = R"(      <link name="{0}_wheel">
       </joint>
 )";
 
-struct Box {
-    double x = 0, y = 0, z = 0, length = 0, width = 0, height = 0, yaw = 0;
-};
-
-std::string placed(const Box& box) {
-    return fmt::format(
-        "<pose>{:.5f} {:.5f} {:.5f} 0 0 {:.5f}</pose><geometry><box><size>{:.5f} {:.5f} {:.5f}"
-        "</size></box></geometry>",
-        box.x, box.y, box.z, box.yaw, box.length, box.width, box.height);
-}
-
-void add_visual(Text& text, const std::string& name, const Box& box, std::string_view colour) {
-    add(text, "        <visual name=\"{}\">{}<material><diffuse>{} 1</diffuse></material></visual>\n", name,
-        placed(box), colour);
-}
-
 void add_head(Text& text, const Field& field) {
     add(text, R"(<?xml version="1.0"?>
 <!-- Robot soccer, {0} league, {1} against {1}. Made by: roboss-world soccer, league {0}. Change the generator, not this file. -->
@@ -121,13 +107,13 @@ void add_head(Text& text, const Field& field) {
 /// A wall over the rectangle; restitution of wood.
 void add_wall(Text& text, const std::string& name, double low_x, double high_x, double low_y, double high_y,
               double yaw = 0) {
-    const Box box{(low_x + high_x) / 2,
-                  (low_y + high_y) / 2,
-                  soccer::kWallHeight / 2,
-                  high_x - low_x,
-                  high_y - low_y,
-                  soccer::kWallHeight,
-                  yaw};
+    const FieldBox box{(low_x + high_x) / 2,
+                       (low_y + high_y) / 2,
+                       soccer::kWallHeight / 2,
+                       high_x - low_x,
+                       high_y - low_y,
+                       soccer::kWallHeight,
+                       yaw};
     add(text, "        <collision name=\"{}\">{}<surface>", name, placed(box));
     add(text,
         "<friction><ode><mu>0.3</mu><mu2>0.3</mu2></ode></friction><bounce><restitution_coefficient>0.5"
@@ -273,6 +259,8 @@ void add_ball(Text& text) {
 }  // namespace
 
 std::string soccer_sdf(const SoccerOptions& options) {
+    for (const soccer::SslField& field : soccer::kSslFields)
+        if (field.league == options.league) return ssl_sdf(field);
     Text text;
     for (const Field& field : soccer::kFields) {
         if (field.league != options.league) continue;
