@@ -21,7 +21,8 @@ Team team_of(bool is_yellow) {
 /// ParseFromArray prints a line for each message that lacks a field: this does not.
 template <class Message>
 bool parse(std::string_view bytes, Message& message) {
-    return message.ParsePartialFromArray(bytes.data(), static_cast<int>(bytes.size())) && message.IsInitialized();
+    return message.ParsePartialFromArray(bytes.data(), static_cast<int>(bytes.size())) &&
+           message.IsInitialized();
 }
 
 bool is_finite(const std::optional<double>& value) {

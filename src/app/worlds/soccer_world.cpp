@@ -216,7 +216,34 @@ void add_scoreboard(Text& text, const Field& f) {
     add(text, "    </model>\n");
 }
 
-void add_robot(Text& text, const Field& field, std::string_view team, int number) {
+/// 38400 bit/s, as radio modules of the league had: commands for three robots take 2.5 ms. Each team has a
+/// channel.
+void add_radio(Text& text, const SoccerOptions& options, bool blue, double height) {
+    add(text,
+        "        <roboss:radio name=\"radio\"><pose>0 0 {} 0 0 0</pose><channel>{}</channel>"
+        "<bit_rate>38400</bit_rate><loss>{}</loss></roboss:radio>\n",
+        height, blue ? 1 : 2, options.radio_loss);
+}
+
+void add_station(Text& text, const SoccerOptions& options, const Field& f, std::string_view team) {
+    const bool blue = team == "blue";
+    add(text,
+        "    <model name=\"{}_station\">\n      <pose>{:.3f} {:.3f} 0 0 0 0</pose>\n      <link "
+        "name=\"station\">\n",
+        team, (blue ? -0.5 : 0.5) * f.half_length, -f.half_width - 0.25);
+    add(text,
+        "        "
+        "<inertial><mass>1</mass><inertia><ixx>0.1</ixx><iyy>0.1</iyy><izz>0.1</izz></inertia></inertial>\n");
+    add_visual(text, "box", {0, 0, 0.03, 0.16, 0.10, 0.06, 0}, "0.20 0.22 0.25");
+    add_visual(text, "mast", {0, 0, 0.18, 0.008, 0.008, 0.24, 0}, blue ? "0.10 0.30 0.95" : "0.98 0.82 0.05");
+    add_radio(text, options, blue, 0.3);
+    add(text,
+        "      </link>\n      <joint name=\"fixed\" "
+        "type=\"fixed\"><parent>world</parent><child>station</child></joint>\n    </model>\n");
+}
+
+void add_robot(Text& text, const SoccerOptions& options, const Field& field, std::string_view team,
+               int number) {
     const bool blue = team == "blue";
     const soccer::Stand stand = soccer::kick_off_stand(field, number, blue);
     add(text, "    <model name=\"{}_{}\">\n      <pose>{:.4f} {:.4f} 0 0 0 {}</pose>\n{}", team, number,
@@ -226,6 +253,7 @@ void add_robot(Text& text, const Field& field, std::string_view team, int number
                blue ? "0.10 0.30 0.95" : "0.98 0.82 0.05");
     add_visual(text, "front", {0.024, 0, 0.074, 0.020, 0.06, 0.002, 0},
                number == 0 ? "0.85 0.10 0.10" : "0.10 0.10 0.10");
+    if (options.radio) add_radio(text, options, blue, 0.08);
     add(text, "      </link>\n");
     for (const auto& [name, y] : {std::pair{"left", 0.031}, std::pair{"right", -0.031}})
         fmt::format_to(std::back_inserter(text), fmt::runtime(kWheel), name, y);
@@ -269,9 +297,11 @@ std::string soccer_sdf(const SoccerOptions& options) {
         add_lines(text, field);
         add(text, "      </link>\n    </model>\n");
         for (const std::string_view team : {"blue", "yellow"})
-            for (int i = 0; i < field.robots; ++i) add_robot(text, field, team, i);
+            for (int i = 0; i < field.robots; ++i) add_robot(text, options, field, team, i);
         add_ball(text);
         add_scoreboard(text, field);
+        if (options.radio)
+            for (const std::string_view team : {"blue", "yellow"}) add_station(text, options, field, team);
         add(text, "  </world>\n</sdf>\n");
     }
     return fmt::to_string(text);

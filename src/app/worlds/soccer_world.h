@@ -9,6 +9,9 @@ namespace roboss {
 
 struct SoccerOptions {
     std::string league = "small";  // small: 3 robots a side, middle: 5, large: 11; ssl-b: 6, ssl-a: 11
+    // MiroSot: a radio on each robot, and a station of each team beside the field that sends its commands.
+    bool radio = false;
+    double radio_loss = 0;  // probability that a robot does not get a message
 };
 
 /// Empty if there is no such league.

@@ -70,7 +70,8 @@ TEST(SoccerWorld, InTheSmallSizeLeagueEveryoneStandsFreeInTheOwnHalf) {
                     stand.x = -stand.x, stand.y = -stand.y;
                 }
                 for (const soccer::Stand& other : taken)
-                    EXPECT_GT(std::hypot(stand.x - other.x, stand.y - other.y), 2.2 * soccer::SslRobot::kRadius)
+                    EXPECT_GT(std::hypot(stand.x - other.x, stand.y - other.y),
+                              2.2 * soccer::SslRobot::kRadius)
                         << field.league << " robot " << i;
                 taken.push_back(stand);
             }
