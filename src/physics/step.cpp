@@ -8,13 +8,11 @@
 #include "core/check.h"
 #include "core/float_env.h"
 #include "core/make_room.h"
-#include "core/union_find.h"
 #include "onboard/onboard.h"
 #include "physics/bonds/bond_keeper.h"
-#include "physics/contact/coarse_bound.h"
-#include "physics/contact/meetings.h"
 #include "physics/dynamics/pull.h"
 #include "physics/lanes/lane_stepper.h"
+#include "physics/near_sets.h"
 #include "physics/robot_group.h"
 #include "physics/tick.h"
 
@@ -24,14 +22,9 @@ struct StepScratch::Impl {
     GroupScratch group;
     std::vector<RobotWork> works;     // of some robots that may meet; only the first are in use
     std::vector<RobotWork> alone{1};  // the others, one after the other
-    std::vector<Aabb> coarse;
-    Meetings meetings;
-    UnionFind joined;                        // of robots: who may meet, directly or by way of others
-    std::vector<std::uint32_t> active;       // awake, or about to wake
-    std::vector<std::uint32_t> near, batch;  // `near`: who may meet others, or wake, set by set
-    std::vector<std::uint32_t> sleepers;     // whom nothing wakes
-    std::vector<char> is_near, ordered, moved_freely;
-    std::vector<char> is_stirred;  // by set (UnionFind::find): one of it is active
+    NearSets sets;
+    std::vector<std::uint32_t> batch;
+    std::vector<char> ordered, moved_freely;
     std::vector<float> efforts;
     StageNow now = nullptr;  // nullptr: stages are not measured
     StageClock clock;
@@ -40,7 +33,6 @@ struct StepScratch::Impl {
     std::unique_ptr<LaneStepper> single = make_single_stepper();
     LaneQueue queue;
     OnboardScratch onboard;
-    RobotWork holder;  // for the coarse boxes of those that hold others
     RobotWork pulled;  // for those that are pulled
 
     /// Forgets the last call.
@@ -131,66 +123,6 @@ void share_effort(std::span<const std::uint32_t> robots, int iterations, std::ve
     for (const std::uint32_t i : robots) efforts[i] = each;
 }
 
-constexpr double kFar = 1e300;
-constexpr Aabb kEverywhere{{-kFar, -kFar, -kFar}, {kFar, kFar, kFar}};
-
-/// Joins the sleeper with those on whom its sleep hangs. Whether it will wake: one of them is gone or awake.
-bool join_neighbours(const Model& model, std::span<const RobotId> robots, std::span<RobotState* const> states,
-                     std::uint32_t sleeper, Impl& s) {
-    bool wakes = false;
-    for (const std::uint32_t id : states[sleeper]->rest.neighbours) {
-        const auto found = std::lower_bound(robots.begin(), robots.end(), RobotId(id));
-        if (found == robots.end() || found->value != id) {
-            wakes = true;
-            continue;
-        }
-        const auto i = static_cast<std::uint32_t>(found - robots.begin());
-        s.joined.unite(sleeper, i);
-        wakes |=
-            wakes_neighbours(model.type_of(*found), *states[i], states[i]->rest.asleep, s.ordered[i] != 0);
-    }
-    return wakes;
-}
-
-/// A box that holds the robot's interaction bound; `buffer` is overwritten.
-Aabb coarse_box(const Model& model, RobotId robot, RobotState& state, RobotWork& buffer) {
-    if (state.bonds.empty()) return coarse_bound(model.type_of(robot), state, model.dt_s);
-    place_robot(model, robot, state, buffer);
-    return buffer.box;
-}
-
-/// Parts the robots into sets that may meet, or wake, sleepers whom nothing wakes, and those alone. The exact
-/// boxes lie inside the coarse ones, so that the parting changes no bit.
-void find_near(const Model& model, std::span<const RobotId> robots, std::span<RobotState* const> states,
-               Impl& s) {
-    const std::size_t count = robots.size();
-    s.is_near.assign(count, 0), s.is_stirred.assign(count, 0);
-    s.near.clear(), s.active.clear(), s.sleepers.clear();
-    s.joined.reset(count), s.coarse.resize(count);
-    for (std::uint32_t i = 0; i < count; ++i) {
-        const RobotState& state = *states[i];
-        if (state.rest.asleep) {
-            s.is_near[i] = 1;
-            s.coarse[i] = state.rest.bound;
-            if (join_neighbours(model, robots, states, i, s)) s.active.push_back(i);
-        } else if (count > 1) {
-            s.coarse[i] = coarse_box(model, robots[i], *states[i], s.holder);
-            s.active.push_back(i);
-        }
-        if (count > 1 && !is_finite(s.coarse[i].max - s.coarse[i].min)) {
-            s.is_near[i] = 1;
-            s.coarse[i] = kEverywhere;
-        }
-    }
-    if (count > 1) s.meetings.join(s.coarse, s.active, s.joined);
-    for (std::uint32_t i = 0; i < count; ++i)
-        if (const std::uint32_t root = s.joined.find(i); root != i) s.is_near[i] = s.is_near[root] = 1;
-    for (const std::uint32_t i : s.active) s.is_stirred[s.joined.find(i)] = 1;
-    for (std::uint32_t i = 0; i < count; ++i)
-        if (s.is_near[i]) (s.is_stirred[s.joined.find(i)] ? s.near : s.sleepers).push_back(i);
-    s.joined.sort_by_set(s.near);
-}
-
 /// Steps the chosen robots, which may meet each other and no others. `tried`: it is one robot that lanes did
 /// not step. One that did not fit for a bond may fit once that is dropped: in floats it must then be stepped
 /// so, as it is where others are near.
@@ -206,12 +138,12 @@ void step_group(const StepCall& call, std::span<const std::uint32_t> chosen, std
 
 /// What a step leaves of sleepers whom nothing wakes: everything.
 void let_sleep(const StepCall& call, Impl& s) {
-    for (const std::uint32_t i : s.sleepers) {
+    for (const std::uint32_t i : s.sets.sleepers()) {
         call.bounds[i] = call.states[i]->rest.bound;
         s.efforts[i] = kEffort;
         s.moved_freely[i] = 1;
     }
-    call.report.asleep += static_cast<int>(s.sleepers.size());
+    call.report.asleep += static_cast<int>(s.sets.sleepers().size());
 }
 
 /// Steps those who may meet, some sets at a time: so few that what is computed of them stays in the cache, so
@@ -220,14 +152,14 @@ void step_groups(const StepCall& call, Impl& s) {
     constexpr std::size_t kTogether = 16;
     std::size_t first = 0, last = 0;
     const auto step_some = [&] {
-        const std::span<std::uint32_t> some = std::span(s.near).subspan(first, last - first);
+        const std::span<std::uint32_t> some = s.sets.near().subspan(first, last - first);
         std::sort(some.begin(), some.end());
         make_room(s.works, some.size());
         if (s.works.size() < some.size()) s.works.resize(some.size());
         first = last;
         if (!some.empty()) step_group(call, some, std::span(s.works).first(some.size()), s);
     };
-    s.joined.for_each_set(s.near, [&](std::span<const std::uint32_t> set) {
+    s.sets.for_each_set([&](std::span<const std::uint32_t> set) {
         call.report.largest_group = std::max(call.report.largest_group, static_cast<int>(set.size()));
         last += set.size();
         if (last - first >= kTogether) step_some();
@@ -257,7 +189,7 @@ void step_lone_robots(const StepCall& call, Impl& s) {
     const auto step_lanes = [&](std::vector<std::uint32_t>& batch) { step_in_lanes(call, batch, s); };
     s.queue.start(model.types.size());
     for (std::uint32_t i = 0; i < call.robots.size(); ++i) {
-        if (s.is_near[i]) continue;
+        if (s.sets.is_near(i)) continue;
         const std::size_t type = model.robots[call.robots[i].index()].type.index();
         if (s.group.lanes && !s.group.keep_reactions && fits_lanes(model.types[type], *call.states[i]))
             s.queue.add(type, i, s.group.lanes.width(), step_lanes);
@@ -298,7 +230,7 @@ StepReport step_island(const Model& model, Tick tick, std::span<const RobotId> r
     run_controllers(model, tick, robots, states, s.onboard);
     pull_robots(model, tick, robots, states, s.pulled);
     s.clock.enter(Stage::kBroadPhase);
-    find_near(model, robots, states, s);
+    s.sets.find({model, robots, states, s.ordered}, s.group.lanes);
     const StepCall call{model, tick, robots, states, bounds, s.ordered, report, s.clock};
     let_sleep(call, s);
     step_groups(call, s);       // batches of robots that may meet: step_robots (tick.h)

@@ -123,6 +123,7 @@ SurfacePair surface_of(const Model& model, std::span<const RobotWork> robots, co
                             friction_axes(b, contact.shape_b), contact.normal, -contact.gap);
     }
     add_motion(model, robots, contact, pair);
+    add_carrying(model, robots, contact, pair);
     add_slip(robots, contact, pair);
     return pair;
 }

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "physics/dynamics/fast_turning.h"
+
 namespace roboss {
 namespace {
 
@@ -70,11 +72,41 @@ Vec3 velocity_at(const Side& side, const Vec3& p, const Vec3& outward, const Vec
     return side.solid ? v : v - outward * dot(outward, v);
 }
 
-/// Centre of mass of the body at one side; the contact point where there is none.
+/// What moves straight within a tick: the origin of a free base. Elsewhere the body's centre of mass, or the
+/// contact point where there is none.
 Vec3 rider_at(std::span<const RobotWork> robots, int robot, int body, const Vec3& p) {
     if (robot < 0 || body < 0) return p;
     const RobotWork& work = robots[static_cast<std::size_t>(robot)];
+    if (work.type->free_base) return work.origin;
     return work.origin + work.bodies[static_cast<std::size_t>(body)].centre;
+}
+
+/// A body of a robot in contact.
+struct Partner {
+    const RobotWork& robot;
+    int body;
+};
+
+/// Whether one may carry the other: a robot with motors a lone body, one on a fixed base all that is free.
+bool may_carry(const Partner& carrier, const Partner& rider) {
+    const RobotType& type = *rider.robot.type;
+    return carrier.body >= 0 && rider.body >= 0 && type.free_base &&
+           (type.nv == 6 || !carrier.robot.type->free_base) && is_driven<double>(carrier.robot.state->motors);
+}
+
+/// m/s: by how much the velocity of the chord differs from that before the tick, at the origin of the rider's
+/// base, which turns with the carrier. The carrier's own base moves straight, too, so that only what turns
+/// about its origin counts. In part, where the rider turns along in part.
+Vec3 chord(const Partner& carrier, const Partner& rider, double dt) {
+    const BodyWork& link = carrier.robot.bodies[static_cast<std::size_t>(carrier.body)];
+    const Vec3& w = link.velocity.angular;
+    const Vec3& of_rider = rider.robot.bodies[static_cast<std::size_t>(rider.body)].velocity.angular;
+    const double along = dot(w, of_rider);
+    if (!(along > 0)) return {};
+    const Vec3 arm = rider.robot.origin - carrier.robot.origin;
+    const Vec3 acceleration =
+        link.bias.linear + cross(link.bias.angular, arm) + cross(w, link.velocity.linear + cross(w, arm));
+    return acceleration * (0.5 * dt * along / std::max(dot(w, w), dot(of_rider, of_rider)));
 }
 
 }  // namespace
@@ -113,6 +145,19 @@ void add_motion(const Model& model, std::span<const RobotWork> robots, const Con
         pair.velocity = pair.velocity - velocity_at(b, p, c.normal, rider, model.dt_s);
         pair.turning = pair.turning - b.flow->angular;
     }
+}
+
+void add_carrying(const Model& model, std::span<const RobotWork> robots, const Contact& c,
+                  SurfacePair& pair) {
+    if (c.robot_b < 0 || c.robot_a == c.robot_b || !(c.load > 0)) return;
+    const Partner a{robots[static_cast<std::size_t>(c.robot_a)], c.body_a},
+        b{robots[static_cast<std::size_t>(c.robot_b)], c.body_b};
+    Vec3 velocity;
+    if (may_carry(a, b))
+        velocity = chord(a, b, model.dt_s);
+    else if (may_carry(b, a))
+        velocity = -chord(b, a, model.dt_s);
+    pair.velocity += velocity - c.normal * dot(c.normal, velocity);
 }
 
 bool has_motion(const Model& model, std::span<const RobotWork> robots, const Contact& c) {

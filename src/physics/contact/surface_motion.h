@@ -23,6 +23,12 @@ const RobotWork* driver_of(std::span<const RobotWork> robots, const StaticShape&
 void add_motion(const Model& model, std::span<const RobotWork> robots, const Contact& contact,
                 SurfacePair& pair);
 
+/// Adds to `pair` what keeps a free body on the circle of a link that carries it by friction. The link turns
+/// about its joints (and its base's origin) within the tick, the body moves straight: its target is the
+/// velocity along the chord. For links of robots with motors, and contacts that bore a load in the last tick.
+void add_carrying(const Model& model, std::span<const RobotWork> robots, const Contact& contact,
+                  SurfacePair& pair);
+
 /// Whether a robot of the contact, or the one that drives its scenery, has a surface in motion.
 bool has_motion(const Model& model, std::span<const RobotWork> robots, const Contact& contact);
 

@@ -43,6 +43,7 @@ bool LaneContacts::find(const Model& model, std::size_t lane) {
 
 std::optional<std::uint32_t> LaneContacts::only_plane(const Model& model, const Aabb& box) {
     model.static_bvh.query(box, scenery_);
+    if (scenery_.empty()) return kNothing;
     if (scenery_.size() != 1 || model.statics[scenery_[0]].shape.kind != ShapeKind::kPlane) return {};
     return scenery_[0];
 }

@@ -2,6 +2,7 @@
 // same. Compiled for every processor, unlike lane_step.h.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <vector>
 
@@ -23,7 +24,8 @@ class LaneContacts {
     /// The contacts of a lane with the scenery, with what the last tick remembers. False if it has near
     /// misses, which lanes do not know.
     bool find(const Model& model, std::size_t lane);
-    /// If all the scenery near `box` is one plane: its number.
+    static constexpr std::uint32_t kNothing = 0xffffffff;
+    /// If all the scenery near `box` is one plane: its number; kNothing if there is none.
     std::optional<std::uint32_t> only_plane(const Model& model, const Aabb& box);
     /// Whether lanes know what the materials make of a shape on scenery `i`: no friction axes, torsion,
     /// rolling, no surface that moves.

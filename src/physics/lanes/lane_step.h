@@ -33,6 +33,13 @@ class LaneStep final : public LaneStepper {
         return step_robots(batch, clock) ? batch.together.present() : 0;
     }
 
+    void find_bounds(const Model& model, std::span<const LaneRobot> robots) override {
+        Lockstep<T> together;
+        place_bodies(model, robots, together);
+        place_shapes<Wide>(*work_.type, model.dt_s, state_.q(), placed());
+        for (std::size_t i = 0; i < robots.size(); ++i) *robots[i].bound = box_of(i);
+    }
+
   private:
     using Mask = MaskOf<T>;
     using Wide = WideOf<T>;
@@ -90,14 +97,19 @@ class LaneStep final : public LaneStepper {
         leave(LaneTraits<Wide>::bits(m), together);
     }
 
-    /// Bodies and shapes in lanes. What might fall asleep or turns fast leaves; false if all do.
-    bool place(const Model& model, std::span<const LaneRobot> robots, Lockstep<T>& together) {
+    void place_bodies(const Model& model, std::span<const LaneRobot> robots, Lockstep<T>& together) {
         work_.type = &model.type_of(robots[0].id);
         const RobotType& type = *work_.type;
         state_.gather(type, robots, together);
         placed().type = &type;
         forward_kinematics<Wide>(type, state_.q(), placed());
         forward_velocities<Wide>(type, state_.v(), placed());
+    }
+
+    /// Bodies and shapes in lanes. What might fall asleep or turns fast leaves; false if all do.
+    bool place(const Model& model, std::span<const LaneRobot> robots, Lockstep<T>& together) {
+        place_bodies(model, robots, together);
+        const RobotType& type = *work_.type;
         leave_where(turns_fast<Wide>(placed(), model.dt_s), together);
         const bool has_contacts = robots[0].has_contacts;
         if (model.sleep || !has_contacts) place_shapes<Wide>(type, model.dt_s, state_.q(), placed());
@@ -148,7 +160,8 @@ class LaneStep final : public LaneStepper {
         return equal(sum, Wide(0));
     }
 
-    /// Where one plane is all that is near, the narrow phase itself goes in lanes. False if it cannot.
+    /// Where one plane is all that is near, or nothing, the narrow phase itself goes in lanes. False if it
+    /// cannot.
     bool find_on_plane(const Model& model, std::span<const LaneRobot> robots, Lockstep<T>& together) {
         std::optional<std::uint32_t> plane;
         for (std::size_t i = 0; i < robots.size(); ++i) {
@@ -159,6 +172,7 @@ class LaneStep final : public LaneStepper {
         }
         if (!plane) return false;
         contacts_.clear(), surfaces_.clear(), velocities_.clear();
+        if (*plane == LaneContacts::kNothing) return true;
         Lockstep<Wide> finders(together.present());
         for (std::size_t s = 0; s < placed().shapes.size(); ++s)
             if (work_.type->shapes[s].body >= 0 && !add_on_plane(model, s, *plane, finders)) return false;

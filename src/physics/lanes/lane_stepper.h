@@ -38,6 +38,8 @@ class LaneStepper {
     /// the caller: to remember, to count.
     virtual unsigned step(const Model& model, std::span<const LaneRobot> robots, StepReport& report,
                           StageClock& clock) = 0;
+    /// The interaction bounds of at most width() robots, awake, of one type that fits.
+    virtual void find_bounds(const Model& model, std::span<const LaneRobot> robots) = 0;
 };
 
 /// Robots that wait, by type, until a register is full. They have numbers of the caller.

@@ -274,6 +274,33 @@ TEST(Lanes, FastCarsPassAndHitSceneryAlike) {
     compare(world, drive, 150);
 }
 
+/// Bent arms whose coarse bounds overlap, as stretched ones would, and whose exact ones do not: no set of
+/// robots that may meet holds two of them, and bits are the same without lanes, where all are one.
+TEST(Lanes, BentArmsInReachOfEachOtherMeetNobody) {
+    ModelSpec model = with_balls(arm(), 0.03);
+    World world = empty_world(2e-3);
+    world.prototypes.push_back(model);
+    for (int i = 0; i < 9; ++i)
+        world.instances.push_back({"arm_" + std::to_string(i), 0, {{1.5 * i, 0, 0}, {}}, {}});
+    const Drive drive = [](Simulation& sim) {
+        for (std::size_t r = 0; sim.tick == 0 && r < sim.states.size(); ++r) {
+            RobotState& s = sim.states[r];
+            for (std::size_t d = 0; d < s.motors.size(); ++d) {
+                s.q[7 + d] = d % 2 == 0 ? 0.0 : 2.5;
+                sim.set_motor(r, d, MotorMode::kPosition, s.q[7 + d]);
+            }
+        }
+    };
+    compare(world, drive, 100);
+    Simulation alone(world), in_lanes(world);
+    alone.scratch.use_lanes(1);
+    drive(alone), drive(in_lanes);
+    EXPECT_EQ(alone.step().largest_group, 9);
+    if (in_lanes.scratch.lanes(world.precision) > 1) {
+        EXPECT_EQ(in_lanes.step().largest_group, 0);
+    }
+}
+
 /// They are of use at all: most of the cars' steps are taken in lanes.
 TEST(Lanes, DrivingCarsStayInTheirLanes) {
     const auto expect_most = [](Precision precision, std::span<const std::size_t> widths) {
