@@ -18,9 +18,9 @@ using soccer::SslRobot;
 
 constexpr const char* kLineColour = "0.92 0.92 0.90";
 
-// Two floors in one place, as the ball slides on the carpet with less friction than rubber rollers: the lower
-// two bits of the masks say which of them a shape stands on. Friction of a pair is the smaller one, so ball
-// and dribbler grip each other better than the ball grips the carpet; a dribbler needs that.
+// Two grounds in one place, as the ball slides on the carpet with less friction than rubber rollers: the
+// lower two bits of the masks say which of them a shape stands on. Friction of a pair is the smaller one, so
+// ball and dribbler grip each other better than the ball grips the carpet; a dribbler needs that.
 constexpr const char* kHead = R"(<?xml version="1.0"?>
 <!-- RoboCup Small Size League, {0}, {1} against {1}. Made by: roboss-world soccer, league {0}. Change the generator, not this file. -->
 <sdf version="1.9" xmlns:gz="http://gazebosim.org/schema" xmlns:roboss="https://roboss.org/sdf">
@@ -255,7 +255,8 @@ void add_ssl_robot(Text& text, const SslField& field, bool blue, int number) {
           )",
         kRobotSurface);
     add_outline(text);
-    add(text, "\n          <material><diffuse>0.10 0.10 0.11 1</diffuse></material>\n        </visual>\n");
+    add(text, "\n          <material><diffuse>{} 1</diffuse></material>\n        </visual>\n",
+        blue ? "0.12 0.20 0.42" : "0.45 0.38 0.10");
     add_guides(text);
     add_marks(text, blue, number);
     add(text, "      </link>\n");
