@@ -26,12 +26,14 @@ def load_messages():
     return importlib.import_module("ssl_pb2")
 
 
-def vision_socket(group, port, interface):
+def vision_socket(address, port, interface):
+    """Receives what is sent to the address, which may be one of this computer instead of a multicast group."""
     result = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
     result.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
-    result.bind((group, port))
-    member = struct.pack("4s4s", socket.inet_aton(group), socket.inet_aton(interface))
-    result.setsockopt(socket.IPPROTO_IP, socket.IP_ADD_MEMBERSHIP, member)
+    result.bind((address, port))
+    if 224 <= int(address.split(".")[0]) < 240:
+        member = struct.pack("4s4s", socket.inet_aton(address), socket.inet_aton(interface))
+        result.setsockopt(socket.IPPROTO_IP, socket.IP_ADD_MEMBERSHIP, member)
     return result
 
 
@@ -160,7 +162,7 @@ def main():
     parser.add_argument("team", choices=["blue", "yellow"])
     parser.add_argument("--simulator", default="127.0.0.1", help="address of the simulator (default %(default)s)")
     parser.add_argument("--port", type=int, help="of the team's commands (default: 10301 blue, 10302 yellow)")
-    parser.add_argument("--vision", default="224.5.23.2:10020", help="multicast group of ssl-vision (default %(default)s)")
+    parser.add_argument("--vision", default="224.5.23.2:10020", help="where ssl-vision sends to (default %(default)s)")
     parser.add_argument("--interface", default="127.0.0.1", help="that vision comes in at (default %(default)s)")
     parser.add_argument("--referee", action="store_true", help="count goals and put the ball back on the field")
     args = parser.parse_args()
