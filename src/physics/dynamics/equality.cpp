@@ -35,9 +35,10 @@ void add_loop(const RobotWork& work, std::span<const double> q, std::size_t inde
     for (const ClosureRow& condition : closure.all()) {
         EqualityRow row;
         row.first = out.columns.size();
-        visit_between(*work.type, loop.body_a, loop.body_b, [&](std::size_t k, double sign) {
-            out.columns.push_back({static_cast<int>(k), sign * dot(work.axes[k], condition.wrench)});
-        });
+        if (out.has_columns)
+            visit_between(*work.type, loop.body_a, loop.body_b, [&](std::size_t k, double sign) {
+                out.columns.push_back({static_cast<int>(k), sign * dot(work.axes[k], condition.wrench)});
+            });
         row.last = out.columns.size();
         row.error = condition.error, row.curvature = condition.curvature;
         row.mobility = condition.mobility;
@@ -62,13 +63,39 @@ void add_coupling(const RobotType& type, std::span<const double> q, const Coordi
     out.rows.push_back(row);
 }
 
+void gather(const RobotWork& work, std::span<const double> q, bool with_columns, Equalities& out) {
+    out.columns.clear(), out.rows.clear();
+    out.has_columns = with_columns;
+    for (std::size_t i = 0; i < work.type->loops.size(); ++i) add_loop(work, q, i, out);
+    for (const CoordinateCoupling& coupling : work.type->couplings)
+        add_coupling(*work.type, q, coupling, out);
+}
+
+/// How the bodies move about O at the rates x of what is not locked.
+void find_motions(const RobotWork& work, std::span<const double> x, std::span<const char> locked,
+                  std::vector<Spatial>& motions) {
+    const RobotType& type = *work.type;
+    motions.resize(type.bodies.size());
+    for (std::size_t b = 0; b < type.bodies.size(); ++b) {
+        const Body& body = type.bodies[b];
+        Spatial motion;
+        if (body.parent >= 0) motion = motions[static_cast<std::size_t>(body.parent)];
+        for (int k = 0; k < body.nv; ++k) {
+            const auto dof = static_cast<std::size_t>(body.v_index + k);
+            if (locked.empty() || !locked[dof]) motion += work.axes[dof] * x[dof];
+        }
+        motions[b] = motion;
+    }
+}
+
 }  // namespace
 
 void gather_equalities(const RobotWork& work, std::span<const double> q, Equalities& equalities) {
-    equalities.columns.clear(), equalities.rows.clear();
-    for (std::size_t i = 0; i < work.type->loops.size(); ++i) add_loop(work, q, i, equalities);
-    for (const CoordinateCoupling& coupling : work.type->couplings)
-        add_coupling(*work.type, q, coupling, equalities);
+    gather(work, q, true, equalities);
+}
+
+void gather_for_solver(const RobotWork& work, std::span<const double> q, Equalities& equalities) {
+    gather(work, q, EqualitySolver::needs_mass_matrix(*work.type), equalities);
 }
 
 double times_row(const Equalities& equalities, const EqualityRow& row, std::span<const double> x) {
@@ -76,6 +103,23 @@ double times_row(const Equalities& equalities, const EqualityRow& row, std::span
     for (std::size_t c = row.first; c < row.last; ++c)
         sum += equalities.columns[c].j * x[static_cast<std::size_t>(equalities.columns[c].dof)];
     return sum;
+}
+
+void times_rows(const RobotWork& work, std::span<const double> x, std::span<const char> locked,
+                Equalities& equalities, std::vector<double>& result) {
+    result.clear();
+    if (!equalities.has_columns) find_motions(work, x, locked, equalities.motions);
+    for (const EqualityRow& row : equalities.rows) {
+        if (equalities.has_columns) {
+            result.push_back(times_row(equalities, row, x));
+            continue;
+        }
+        const LoopJoint& loop = work.type->loops[static_cast<std::size_t>(row.loop)];
+        Spatial motion;
+        if (loop.body_b >= 0) motion = equalities.motions[static_cast<std::size_t>(loop.body_b)];
+        if (loop.body_a >= 0) motion = motion - equalities.motions[static_cast<std::size_t>(loop.body_a)];
+        result.push_back(dot(row.wrench, motion));
+    }
 }
 
 void EqualitySolver::prepare(const RobotWork& work, std::span<const char> locked,
@@ -159,7 +203,7 @@ void EqualityProjection::place(const RobotType& type, std::span<const double> q)
     work_.type = &type;
     forward_kinematics<double>(type, q, work_);
     for (BodyWork& body : work_.bodies) body.velocity = body.bias = {};
-    gather_equalities(work_, q, equalities_);
+    gather_for_solver(work_, q, equalities_);
     wanted_.resize(equalities_.rows.size());
     change_.resize(static_cast<std::size_t>(type.nv));
 }
@@ -211,8 +255,8 @@ void EqualityProjection::close_coordinates(const RobotType& type, std::span<doub
 void EqualityProjection::close_velocities(const RobotType& type, std::span<const double> q,
                                           std::span<double> v, std::span<const char> locked) {
     place(type, q);
-    for (std::size_t r = 0; r < wanted_.size(); ++r)
-        wanted_[r] = -times_row(equalities_, equalities_.rows[r], v);
+    times_rows(work_, v, {}, equalities_, wanted_);
+    for (double& wanted : wanted_) wanted = -wanted;
     prepare(type, locked);
     solver_.solve(wanted_, change_);
     for (std::size_t k = 0; k < v.size(); ++k) v[k] += change_[k];

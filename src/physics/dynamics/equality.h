@@ -29,16 +29,24 @@ struct EqualityRow {
 struct Equalities {
     std::vector<EqualityColumn> columns;
     std::vector<EqualityRow> rows;
+    bool has_columns = true;
+    std::vector<Spatial> motions;  // of the bodies; a buffer
 };
 
 /// All equalities of a placed robot (moved, too, if the curvatures are wanted) at coordinates q.
 void gather_equalities(const RobotWork& work, std::span<const double> q, Equalities& equalities);
+/// The same without columns if EqualitySolver needs none.
+void gather_for_solver(const RobotWork& work, std::span<const double> q, Equalities& equalities);
 
 /// Takes locked degrees of freedom (none: empty) out of the rows.
 void leave_out_locked(std::span<const char> locked, Equalities& equalities);
 
-/// J x of one row.
+/// J x of one row that has columns.
 double times_row(const Equalities& equalities, const EqualityRow& row, std::span<const double> x);
+
+/// J x of all rows, with locked degrees of freedom at rest.
+void times_rows(const RobotWork& work, std::span<const double> x, std::span<const char> locked,
+                Equalities& equalities, std::vector<double>& result);
 
 /// Solves J M^-1 J^T impulses = wanted by Cholesky's method with diagonal pivoting, or joint by joint where a
 /// robot has many loops (sparse_equality.h). Rows that others imply (a planar linkage in space has three of

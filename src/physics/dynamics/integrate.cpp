@@ -31,12 +31,12 @@ void normalise(const RobotType& type, std::span<double> q) {
 /// Adds what loops and couplings accelerate: so much that their second derivatives are zero.
 void add_equality_acceleration(std::span<const double> q, std::span<const char> locked, FreeBuffer& free) {
     RobotWork& work = free.work;
-    gather_equalities(work, q, free.equalities);
+    gather_for_solver(work, q, free.equalities);
     leave_out_locked(locked, free.equalities);
     free.solver.prepare(work, locked, free.equalities);
-    free.wanted.clear();
-    for (const EqualityRow& row : free.equalities.rows)
-        free.wanted.push_back(-row.curvature - times_row(free.equalities, row, work.velocity));
+    times_rows(work, work.velocity, locked, free.equalities, free.wanted);
+    for (std::size_t r = 0; r < free.wanted.size(); ++r)
+        free.wanted[r] = -free.equalities.rows[r].curvature - free.wanted[r];
     free.change.resize(work.velocity.size());
     free.solver.solve(free.wanted, free.change);
     for (std::size_t i = 0; i < free.change.size(); ++i) work.velocity[i] += free.change[i];
@@ -80,14 +80,6 @@ void tree_acceleration(const Model& model, const SteadyRows& rows, std::span<con
     tree_solve(type.paths, buffer.mass_matrix.data(), buffer.velocity.data());
 }
 
-/// Into so many parts the tick is cut: no body turns further in one than the method follows to a millionth.
-int parts_of_tick(const RobotType& type, double fastest, double dt) {
-    constexpr double kTurnOfBody = 0.1, kTurnOfTree = 0.25;  // rad: of the methods of fourth and sixth order
-    constexpr double kPartsMax = 64;
-    const double turn = type.dofs.empty() ? kTurnOfBody : kTurnOfTree;
-    return static_cast<int>(std::ceil(std::clamp(std::sqrt(fastest) * dt / turn, 1.0, kPartsMax)));
-}
-
 /// An explicit Runge-Kutta method: stage s starts from the rates of those before it, weighed by `from[s]`.
 struct Method {
     std::size_t stages;
@@ -111,9 +103,24 @@ constexpr Method kButcher{7,
                             {9.0 / 44, -9.0 / 11, 63.0 / 44, 18.0 / 11, 0.0, -16.0 / 11}}},
                           {11.0 / 120, 0.0, 27.0 / 40, 27.0 / 40, -4.0 / 15, -4.0 / 15, 11.0 / 120}};
 
-/// Links on joints whip each other round far faster than they swing; a lone body has nothing that does.
+/// Many loops, of which each stage needs a factorisation (sparse_equality.h).
+bool is_net(const RobotType& type) {
+    return !type.elimination.empty();
+}
+
+/// Links on joints whip each other round far faster than they swing; a lone body has nothing that does, and
+/// in a net links hold each other.
 const Method& method_of(const RobotType& type) {
-    return type.dofs.empty() ? kClassical : kButcher;
+    return type.dofs.empty() || is_net(type) ? kClassical : kButcher;
+}
+
+/// Into so many parts the tick is cut: no body turns further in one than the method follows to a millionth.
+/// In a net, which others hold, a body that turns fast swings to and fro: less exact will do.
+int parts_of_tick(const RobotType& type, double fastest, double dt) {
+    constexpr double kTurnOfBody = 0.1, kTurnOfTree = 0.25, kTurnOfNet = 0.16;  // rad
+    constexpr double kPartsMax = 64;
+    const double turn = type.dofs.empty() ? kTurnOfBody : is_net(type) ? kTurnOfNet : kTurnOfTree;
+    return static_cast<int>(std::ceil(std::clamp(std::sqrt(fastest) * dt / turn, 1.0, kPartsMax)));
 }
 
 /// to = from + dt * (rates of the stages, weighed); `rates` holds one stage after the other.

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 
+#include "model/joint_motion.h"
 #include "physics/dynamics/equality.h"
 #include "physics/dynamics/joint_complement.h"
 
@@ -116,12 +117,18 @@ void SparseEqualitySolver::add_tree_rows(std::size_t body) {
         const auto dof = static_cast<std::size_t>(b.v_index + k);
         if (!is_locked(dof)) axes[count++] = about(work_->axes[dof], p);
     }
-    const JointComplement complement = joint_complement(std::span(axes).first(count));
-    for (std::size_t i = 0; i < complement.count; ++i) {
-        const Spatial& w = complement.wrenches[i];
-        rows_.push_back({{w.angular + cross(p, w.linear), w.linear}, {}, {}});
-        wanted_of_.push_back(-1);
+    if (b.joint == JointKind::kBall && count == 3) {
+        for (const Vec3& force : {Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}}) add_tree_row(p, {{}, force});
+        return;
     }
+    const JointComplement complement = joint_complement(std::span(axes).first(count));
+    for (std::size_t i = 0; i < complement.count; ++i) add_tree_row(p, complement.wrenches[i]);
+}
+
+/// A wrench about p.
+void SparseEqualitySolver::add_tree_row(const Vec3& p, const Spatial& wrench) {
+    rows_.push_back({{wrench.angular + cross(p, wrench.linear), wrench.linear}, {}, {}});
+    wanted_of_.push_back(-1);
 }
 
 /// To mobility 1.
@@ -137,8 +144,21 @@ void SparseEqualitySolver::scale_rows(std::size_t node) {
     }
 }
 
+bool SparseEqualitySolver::is_laid_out() const {
+    const JointElimination& elimination = elimination_of(*work_);
+    return laid_out_.rows == first_row_ && laid_out_.ends == elimination.ends &&
+           std::ranges::equal(laid_out_.last_edges, elimination.nodes, {}, {}, &JointElimination::Node::last);
+}
+
 void SparseEqualitySolver::lay_out() {
     const JointElimination& elimination = elimination_of(*work_);
+    if (is_laid_out()) {
+        std::ranges::fill(a_, 0.0);
+        return;
+    }
+    laid_out_.rows = first_row_, laid_out_.ends = elimination.ends;
+    laid_out_.last_edges.clear();
+    for (const JointElimination::Node& node : elimination.nodes) laid_out_.last_edges.push_back(node.last);
     const std::size_t nodes = elimination.nodes.size();
     width_.resize(nodes), start_.resize(nodes), column_.resize(elimination.ends.size());
     std::size_t size = 0;
@@ -153,6 +173,13 @@ void SparseEqualitySolver::lay_out() {
         size += own * width;
     }
     a_.assign(size, 0.0);
+    runs_.clear(), first_run_.clear();
+    for (std::size_t k = 0; k < nodes; ++k)
+        for (std::size_t e = elimination.nodes[k].first; e < elimination.nodes[k].last; ++e) {
+            first_run_.push_back(runs_.size());
+            find_runs(k, e);
+        }
+    first_run_.push_back(runs_.size());
 }
 
 void SparseEqualitySolver::assemble() {
@@ -202,7 +229,6 @@ void SparseEqualitySolver::eliminate_own(std::size_t node) {
 void SparseEqualitySolver::find_runs(std::size_t node, std::size_t edge) {
     const JointElimination& elimination = elimination_of(*work_);
     const auto target = static_cast<std::size_t>(elimination.ends[edge]);
-    runs_.clear();
     runs_.push_back({column_[edge], 0, rows_of(target)});
     std::size_t at = elimination.nodes[target].first;
     for (std::size_t e = edge + 1; e < elimination.nodes[node].last; ++e) {
@@ -217,9 +243,9 @@ void SparseEqualitySolver::find_runs(std::size_t node, std::size_t edge) {
 }
 
 /// row -= f * pivot for up to three pivots of a joint at once, run by run.
-void SparseEqualitySolver::subtract(const double* pivots, std::size_t width, std::span<const double> f,
-                                    double* row) const {
-    for (const Run& run : runs_) {
+void SparseEqualitySolver::subtract(std::span<const Run> runs, const double* pivots, std::size_t width,
+                                    std::span<const double> f, double* row) const {
+    for (const Run& run : runs) {
         double* __restrict to = row + run.to;
         const double* __restrict p0 = pivots + run.from;
         const double f0 = f[0];
@@ -244,13 +270,13 @@ void SparseEqualitySolver::update_later(std::size_t node) {
     std::array<double, 6> f;
     for (std::size_t e = elimination.nodes[node].first; e < elimination.nodes[node].last; ++e) {
         const auto target = static_cast<std::size_t>(elimination.ends[e]);
-        find_runs(node, e);
+        const auto runs = std::span(runs_).subspan(first_run_[e], first_run_[e + 1] - first_run_[e]);
         for (std::size_t r = 0; r < rows_of(target); ++r) {
             double* row = a_.data() + start_[target] + r * width_[target];
             for (std::size_t c = 0; c < own; ++c) f[c] = a[c * width + column_[e] + r] * a[c * width + c];
             for (std::size_t c = 0; c < own; c += 3)
-                subtract(a + c * width, width, std::span(f).subspan(c, std::min<std::size_t>(3, own - c)),
-                         row);
+                subtract(runs, a + c * width, width,
+                         std::span(f).subspan(c, std::min<std::size_t>(3, own - c)), row);
         }
     }
 }

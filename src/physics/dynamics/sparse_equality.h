@@ -38,13 +38,16 @@ class SparseEqualitySolver {
     void prepare_bodies();
     void gather_rows(const Equalities& equalities);
     void add_tree_rows(std::size_t body);
+    void add_tree_row(const Vec3& p, const Spatial& wrench);
     void scale_rows(std::size_t node);
     void lay_out();
     void assemble();
     void factor();
     void eliminate_own(std::size_t node);
     void update_later(std::size_t node);
-    void subtract(const double* pivots, std::size_t width, std::span<const double> f, double* row) const;
+    void subtract(std::span<const Run> runs, const double* pivots, std::size_t width,
+                  std::span<const double> f, double* row) const;
+    bool is_laid_out() const;
     void find_runs(std::size_t node, std::size_t edge);
     void substitute();
     void read_joints(std::span<double> change);
@@ -63,9 +66,15 @@ class SparseEqualitySolver {
     std::vector<std::size_t> loop_rows_;      // by loop: its first row in the equalities; and the end
     std::vector<std::size_t> width_, start_;  // by node: entries of its rows in a_, and where they begin
     std::vector<std::size_t> column_;         // by edge: where its columns begin in the rows of its node
+    std::vector<Run> runs_;                   // of all edges
+    std::vector<std::size_t> first_run_;      // by edge, and the end
+    /// What these five were made for: they are the same from stage to stage.
+    struct Layout {
+        std::vector<std::size_t> rows, last_edges;
+        std::vector<int> ends;
+    } laid_out_;
     std::vector<double> a_;  // rows of D L^T, reciprocals of D on the diagonal; 0 there: the row is implied
     std::vector<double> x_;  // impulses, by row
-    std::vector<Run> runs_;
     std::vector<Spatial> change_;  // by body
 };
 
