@@ -108,6 +108,10 @@ void SslBridge::open_sockets() {
     const Address commands = Address::from_environment("ROBOSS_SOCCER_COMMANDS", {"127.0.0.1", 20011});
     const Address vision = Address::from_environment("ROBOSS_SOCCER_VISION", {"224.5.23.2", 10020});
     const Address control = Address::from_environment("ROBOSS_SOCCER_CONTROL", {"127.0.0.1", 10300});
+    if (control.port > 65533)
+        throw std::runtime_error("ROBOSS_SOCCER_CONTROL is " + control.text() +
+                                 ", and the ports of the teams are one and two higher\n"
+                                 "  remedy: give a port up to 65533");
     grsim_ = std::make_unique<UdpReceiver>(commands);
     simulator_ = std::make_unique<UdpReceiver>(control);
     for (int i = 0; i < 2; ++i)
