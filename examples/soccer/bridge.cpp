@@ -22,13 +22,14 @@ class Bridge final : public roboss::ControlProgram {
         pitch_ = Pitch::of(client);
         const Address commands = Address::from_environment("ROBOSS_SOCCER_COMMANDS", {"127.0.0.1", 20011});
         const Address vision = Address::from_environment("ROBOSS_SOCCER_VISION", {"224.0.0.1", 10002});
-        if (!udp_) udp_ = std::make_unique<Udp>(commands, vision);
+        if (!commands_) commands_ = std::make_unique<UdpReceiver>(commands);
+        if (!vision_) vision_ = std::make_unique<UdpSender>(vision, commands);
         std::fprintf(stderr, "soccer bridge: FIRASim commands at %s, vision to %s\n", commands.text().c_str(),
                      vision.text().c_str());
     }
 
     void control(roboss::Client& client) override {
-        while (const auto datagram = udp_->receive()) {
+        while (const auto datagram = commands_->receive()) {
             const auto packet = firasim::packet_of(*datagram);
             if (packet)
                 follow(client, *packet);
@@ -37,7 +38,7 @@ class Bridge final : public roboss::ControlProgram {
                              "soccer bridge: a datagram of %zu bytes is no Packet of FIRASim: ignored\n",
                              datagram->size());
         }
-        udp_->send(firasim::bytes_of(environment(client)));
+        vision_->send(firasim::bytes_of(environment(client)));
     }
 
   private:
@@ -51,7 +52,8 @@ class Bridge final : public roboss::ControlProgram {
     firasim::Environment environment(roboss::Client& client) const;
 
     Pitch pitch_;
-    std::unique_ptr<Udp> udp_;
+    std::unique_ptr<UdpReceiver> commands_;
+    std::unique_ptr<UdpSender> vision_;
     bool complained_ = false;
 };
 

@@ -1,8 +1,5 @@
 // FIRASim's messages, as its published classes write them, and a team that drives a robot over UDP.
-#include <arpa/inet.h>
 #include <gtest/gtest.h>
-#include <sys/socket.h>
-#include <unistd.h>
 
 #include <cstdlib>
 #include <memory>
@@ -11,19 +8,13 @@
 
 #include "client/plugin.h"
 #include "firasim.h"
-#include "protobuf.h"
+#include "firasim.pb.h"
 #include "sdf/load_world.h"
 #include "simulation/simulation.h"
+#include "team_socket.h"
 
 namespace soccer {
 namespace {
-
-std::string from_hex(const std::string& hex) {
-    std::string bytes;
-    for (std::size_t i = 0; i + 1 < hex.size(); i += 2)
-        bytes.push_back(static_cast<char>(std::stoi(hex.substr(i, 2), nullptr, 16)));
-    return bytes;
-}
 
 // Written by the classes that protoc made of FIRASim's files (rsoccer-gym 1.4), with protobuf 3.19.
 const std::string kCommands = from_hex(
@@ -73,62 +64,9 @@ TEST(FiraSim, DamagedBytesAreNoPacketAndNeverCrash) {
     EXPECT_FALSE(firasim::packet_of(kCommands.substr(0, kCommands.size() - 1)));
 }
 
-/// A socket of a team's program, at any free port.
-class TeamSocket {
-  public:
-    TeamSocket() : socket_(::socket(AF_INET, SOCK_DGRAM | SOCK_NONBLOCK, 0)) {
-        sockaddr_in address = at(0);
-        EXPECT_EQ(::bind(socket_, reinterpret_cast<sockaddr*>(&address), sizeof address), 0);
-        socklen_t size = sizeof address;
-        getsockname(socket_, reinterpret_cast<sockaddr*>(&address), &size);
-        port_ = ntohs(address.sin_port);
-    }
-    ~TeamSocket() { ::close(socket_); }
-    TeamSocket(const TeamSocket&) = delete;
-    TeamSocket& operator=(const TeamSocket&) = delete;
-
-    int port() const { return port_; }
-    void send(const std::string& bytes, int port) const {
-        const sockaddr_in address = at(port);
-        (void)sendto(socket_, bytes.data(), bytes.size(), 0, reinterpret_cast<const sockaddr*>(&address),
-                     sizeof address);
-    }
-    /// The newest datagram; empty: none.
-    std::string newest() const {
-        std::string bytes, buffer(65536, '\0');
-        for (ssize_t size = 0; (size = recv(socket_, buffer.data(), buffer.size(), 0)) > 0;)
-            bytes = buffer.substr(0, static_cast<std::size_t>(size));
-        return bytes;
-    }
-
-  private:
-    static sockaddr_in at(int port) {
-        sockaddr_in address{};
-        address.sin_family = AF_INET;
-        address.sin_port = htons(static_cast<std::uint16_t>(port));
-        inet_pton(AF_INET, "127.0.0.1", &address.sin_addr);
-        return address;
-    }
-    int socket_, port_ = 0;
-};
-
-/// Fields of this number in a message.
-std::vector<protobuf::Field> fields(std::string_view bytes, std::uint32_t number) {
-    std::vector<protobuf::Field> found;
-    protobuf::Reader reader(bytes);
-    while (const auto field = reader.next())
-        if (field->number == number) found.push_back(*field);
-    EXPECT_FALSE(reader.damaged());
-    return found;
-}
-
 TEST(Bridge, ATeamElsewhereDrivesARobotAndSeesIt) {
     TeamSocket team;
-    int port = 0;
-    {
-        const TeamSocket free_port;
-        port = free_port.port();
-    }
+    const int port = TeamSocket().port();  // free again
     ::setenv("ROBOSS_SOCCER_COMMANDS", ("127.0.0.1:" + std::to_string(port)).c_str(), 1);
     ::setenv("ROBOSS_SOCCER_VISION", ("127.0.0.1:" + std::to_string(team.port())).c_str(), 1);
     roboss::Diagnostics diagnostics;
@@ -139,22 +77,20 @@ TEST(Bridge, ATeamElsewhereDrivesARobotAndSeesIt) {
     auto simulation = roboss::Simulation::create(model, {}, std::move(programs)).value();
     // The bridge is free-running: it drives when it gets to it, here within some frames.
     double speed = 0;
-    std::string vision;
-    for (int frame = 1; frame < 2000 && !(speed > 0.6 && !vision.empty()); ++frame) {
+    messages::FiraEnvironment seen;
+    for (int frame = 1; frame < 2000 && speed < 0.6; ++frame) {
         ASSERT_TRUE(simulation->run_until(8 * frame).ok());
         team.send(kCommands, port);
         const std::string newest = team.newest();
         if (newest.empty()) continue;
-        vision = newest;
-        const std::string_view seen = fields(vision, 2).at(0).bytes;  // Environment.frame
-        ASSERT_EQ(fields(seen, 2).size(), 3u);
-        ASSERT_EQ(fields(seen, 3).size(), 3u);
-        speed = fields(fields(seen, 3)[1].bytes, 5).at(0).real();  // robots_blue[1].vx
+        ASSERT_TRUE(seen.ParseFromString(newest));
+        ASSERT_EQ(seen.frame().robots_yellow_size(), 3);
+        ASSERT_EQ(seen.frame().robots_blue_size(), 3);
+        speed = seen.frame().robots_blue(1).vx();
     }
     EXPECT_NEAR(speed, 30 * kWheelRadius, 0.06);
-    const std::string_view field = fields(vision, 3).at(0).bytes;
-    EXPECT_EQ(fields(field, 1).at(0).real(), 1.3);
-    EXPECT_EQ(fields(field, 2).at(0).real(), 1.5);
+    EXPECT_EQ(seen.field().width(), 1.3);
+    EXPECT_EQ(seen.field().length(), 1.5);
 }
 
 }  // namespace

@@ -2,117 +2,72 @@
 
 #include <cmath>
 
-#include "protobuf.h"
+#include "firasim.pb.h"
 
 namespace soccer::firasim {
 namespace {
 
-using protobuf::Reader;
-using protobuf::Writer;
-
-Team team_of(const protobuf::Field& is_yellow) {
-    return is_yellow.bits != 0 ? Team::kYellow : Team::kBlue;
+Team team_of(bool is_yellow) {
+    return is_yellow ? Team::kYellow : Team::kBlue;
 }
 
-bool read(std::string_view bytes, Command& command) {
-    Reader reader(bytes);
-    while (const auto field = reader.next()) {
-        if (field->number == 1) command.robot = static_cast<std::uint32_t>(field->bits);
-        if (field->number == 2) command.team = team_of(*field);
-        if (field->number == 6) command.left = field->real();
-        if (field->number == 7) command.right = field->real();
-    }
-    return !reader.damaged() && std::isfinite(command.left) && std::isfinite(command.right);
+bool are_finite(std::initializer_list<double> values) {
+    for (const double value : values)
+        if (!std::isfinite(value)) return false;
+    return true;
 }
 
-bool read_position(std::string_view bytes, Placement& placement) {
-    Reader reader(bytes);
-    while (const auto field = reader.next()) {
-        if (field->number == 1) placement.robot = static_cast<std::uint32_t>(field->bits);
-        if (field->number == 2) placement.stand.x = field->real();
-        if (field->number == 3) placement.stand.y = field->real();
-        if (field->number == 4) placement.stand.yaw = field->real();
-    }
-    return !reader.damaged() && std::isfinite(placement.stand.x) && std::isfinite(placement.stand.y) &&
-           std::isfinite(placement.stand.yaw);
+void write(const Mover& robot, std::uint32_t number, messages::FiraRobot& message) {
+    message.set_robot_id(number);
+    message.set_x(robot.x), message.set_y(robot.y), message.set_orientation(robot.yaw);
+    message.set_vx(robot.vx), message.set_vy(robot.vy), message.set_vorientation(robot.turn);
 }
 
-bool read(std::string_view bytes, Placement& placement) {
-    Reader reader(bytes);
-    bool ok = true;
-    while (const auto field = reader.next()) {
-        if (field->number == 1) ok = ok && read_position(field->bytes, placement);
-        if (field->number == 5) placement.team = team_of(*field);
-    }
-    return ok && !reader.damaged();
-}
-
-bool read(std::string_view bytes, BallPlacement& ball) {
-    Reader reader(bytes);
-    while (const auto field = reader.next()) {
-        if (field->number == 1) ball.x = field->real();
-        if (field->number == 2) ball.y = field->real();
-        if (field->number == 3) ball.vx = field->real();
-        if (field->number == 4) ball.vy = field->real();
-    }
-    return !reader.damaged() && std::isfinite(ball.x) && std::isfinite(ball.y) && std::isfinite(ball.vx) &&
-           std::isfinite(ball.vy);
-}
-
-bool read_commands(std::string_view bytes, Packet& packet) {
-    Reader reader(bytes);
-    while (const auto field = reader.next())
-        if (field->number == 1 && !read(field->bytes, packet.commands.emplace_back())) return false;
-    return !reader.damaged();
-}
-
-bool read_replacement(std::string_view bytes, Packet& packet) {
-    Reader reader(bytes);
-    while (const auto field = reader.next()) {
-        if (field->number == 1 && !read(field->bytes, packet.ball.emplace())) return false;
-        if (field->number == 2 && !read(field->bytes, packet.robots.emplace_back())) return false;
-    }
-    return !reader.damaged();
-}
-
-Writer robot_message(const Mover& robot, std::uint32_t number) {
-    Writer message;
-    message.uint(1, number).real(2, robot.x).real(3, robot.y).real(4, robot.yaw);
-    message.real(5, robot.vx).real(6, robot.vy).real(7, robot.turn);
-    return message;
+void write(const Field& field, messages::FiraField& message) {
+    message.set_width(2 * field.half_width), message.set_length(2 * field.half_length);
+    message.set_goal_width(2 * field.half_goal), message.set_goal_depth(field.goal_depth);
+    message.set_center_radius(field.circle);
+    message.set_penalty_width(2 * field.penalty_half), message.set_penalty_depth(field.penalty_area_depth);
+    message.set_penalty_point(field.penalty_mark);
 }
 
 }  // namespace
 
 std::optional<Packet> packet_of(std::string_view bytes) {
+    messages::FiraPacket message;
+    if (!message.ParseFromArray(bytes.data(), static_cast<int>(bytes.size()))) return std::nullopt;
     Packet packet;
-    Reader reader(bytes);
-    while (const auto field = reader.next()) {
-        if (field->number == 1 && !read_commands(field->bytes, packet)) return std::nullopt;
-        if (field->number == 2 && !read_replacement(field->bytes, packet)) return std::nullopt;
+    for (const messages::FiraCommand& one : message.cmd().robot_commands()) {
+        if (!are_finite({one.wheel_left(), one.wheel_right()})) return std::nullopt;
+        packet.commands.push_back({team_of(one.yellowteam()), one.id(), one.wheel_left(), one.wheel_right()});
     }
-    if (reader.damaged()) return std::nullopt;
+    for (const messages::FiraRobotReplacement& one : message.replace().robots()) {
+        const messages::FiraRobot& at = one.position();
+        if (!are_finite({at.x(), at.y(), at.orientation()})) return std::nullopt;
+        packet.robots.push_back(
+            {team_of(one.yellowteam()), at.robot_id(), {at.x(), at.y(), at.orientation()}});
+    }
+    if (message.replace().has_ball()) {
+        const messages::FiraBallReplacement& ball = message.replace().ball();
+        if (!are_finite({ball.x(), ball.y(), ball.vx(), ball.vy()})) return std::nullopt;
+        packet.ball = {ball.x(), ball.y(), ball.vx(), ball.vy()};
+    }
     return packet;
 }
 
 std::string bytes_of(const Environment& e) {
-    Writer ball, frame, field, all;
-    ball.real(1, e.ball.x)
-        .real(2, e.ball.y)
-        .real(3, e.ball_z)
-        .real(4, e.ball.vx)
-        .real(5, e.ball.vy)
-        .real(6, 0);
-    frame.message(1, ball);
-    for (const Team team : {Team::kYellow, Team::kBlue}) {
-        const auto& robots = e.robots[static_cast<std::size_t>(team)];
-        for (std::uint32_t i = 0; i < robots.size(); ++i)
-            frame.message(team == Team::kYellow ? 2 : 3, robot_message(robots[i], i));
-    }
-    field.real(1, 2 * e.field.half_width).real(2, 2 * e.field.half_length);
-    field.real(3, 2 * e.field.half_goal).real(4, e.field.goal_depth);
-    all.uint(1, e.step).message(2, frame).message(3, field).uint(4, e.goals[0]).uint(5, e.goals[1]);
-    return all.bytes();
+    messages::FiraEnvironment message;
+    message.set_step(e.step);
+    messages::FiraFrame& frame = *message.mutable_frame();
+    messages::FiraBall& ball = *frame.mutable_ball();
+    ball.set_x(e.ball.x), ball.set_y(e.ball.y), ball.set_z(e.ball_z);
+    ball.set_vx(e.ball.vx), ball.set_vy(e.ball.vy);
+    const auto& [blue, yellow] = e.robots;
+    for (std::uint32_t i = 0; i < blue.size(); ++i) write(blue[i], i, *frame.add_robots_blue());
+    for (std::uint32_t i = 0; i < yellow.size(); ++i) write(yellow[i], i, *frame.add_robots_yellow());
+    write(e.field, *message.mutable_field());
+    message.set_goals_blue(e.goals[0]), message.set_goals_yellow(e.goals[1]);
+    return message.SerializeAsString();
 }
 
 }  // namespace soccer::firasim

@@ -42,6 +42,9 @@ Pitch Pitch::of(const roboss::Client& client) {
             if (!robot) break;
             pitch.robots[static_cast<std::size_t>(team)].push_back(*robot);
         }
+    for (const Team team : {Team::kBlue, Team::kYellow})
+        pitch.stations[static_cast<std::size_t>(team)] =
+            model.find_robot(std::string(name_of(team)) + "_station");
     const auto ball = model.find_robot("ball");
     const Field* field = field_for(static_cast<int>(pitch.robots[0].size()));
     if (!ball || field == nullptr || pitch.robots[0].size() != pitch.robots[1].size())

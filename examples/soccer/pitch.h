@@ -42,6 +42,7 @@ struct Pitch {
     Field field;
     std::array<std::vector<roboss::RobotId>, 2> robots;  // by team and number
     roboss::RobotId ball;
+    std::array<std::optional<roboss::RobotId>, 2> stations;  // by team; of a world with radio
 
     /// @throws std::runtime_error if the world was not made by `roboss-world soccer`.
     static Pitch of(const roboss::Client& client);

@@ -10,8 +10,14 @@ namespace {
 
 constexpr double kStandstill = 10;        // s
 constexpr double kStandstillRoom = 0.05;  // m, a ball that stays within has not moved
-constexpr double kCrowd = 1;              // s that a second defender may be in the goal area with the ball
+constexpr double kCrowd = 1;              // s that a second defender, or attacker, may be there with the ball
 constexpr double kFreeBallRoom = 0.25;    // m, from the ball to each of the two robots
+
+/// When a state began that `holds` now; negative: it does not.
+double since(bool holds, double before, double now) {
+    if (!holds) return -1;
+    return before < 0 ? now : before;
+}
 
 }  // namespace
 
@@ -23,6 +29,8 @@ const char* name_of(Call call) {
             return "goal";
         case Call::kFreeBall:
             return "free ball";
+        case Call::kGoalKick:
+            return "goal kick";
         case Call::kPenalty:
             return "penalty kick";
         case Call::kHalfTime:
@@ -45,7 +53,7 @@ std::vector<Decision> Referee::look(const Scene& scene) {
 
 void Referee::begin_play(const Scene& scene, double ball_x, double ball_y) {
     state.rest_x = ball_x, state.rest_y = ball_y, state.rest_since = scene.time_s;
-    state.area_since = state.crowd_since = -1;
+    state.area_since = state.crowd_since = state.attackers_since = -1;
 }
 
 void Referee::look_for_time(const Scene& scene, std::vector<Decision>& decisions) {
@@ -81,23 +89,31 @@ bool Referee::look_for_goal(const Scene& scene, std::vector<Decision>& decisions
 
 bool Referee::look_at_goal_area(const Scene& scene, std::vector<Decision>& decisions) {
     if (!in_goal_area(field_, scene.ball_x, scene.ball_y)) {
-        state.area_since = state.crowd_since = -1;
+        state.area_since = state.crowd_since = state.attackers_since = -1;
         return false;
     }
     const Team defender = defender_at(scene.ball_x);
-    const auto& robots = scene.robots[static_cast<std::size_t>(defender)];
-    const auto inside = std::count_if(robots.begin(), robots.end(), [&](const Mover& robot) {
+    const auto is_there = [&](const Mover& robot) {
         return robot.x * scene.ball_x > 0 && in_goal_area(field_, robot.x, robot.y);
-    });
-    if (state.area_since < 0) state.area_since = scene.time_s;
-    if (inside < 2)
-        state.crowd_since = -1;
-    else if (state.crowd_since < 0)
-        state.crowd_since = scene.time_s;
-    const bool crowded = state.crowd_since >= 0 && scene.time_s - state.crowd_since > kCrowd;
-    if (!crowded && scene.time_s - state.area_since < kStandstill) return false;
-    decisions.push_back({Call::kPenalty, other(defender)});
-    const Restart restart = penalty(other(defender));
+    };
+    const auto count = [&](Team team) {
+        const auto& robots = scene.robots[static_cast<std::size_t>(team)];
+        return std::count_if(robots.begin(), robots.end(), is_there);
+    };
+    const double now = scene.time_s;
+    state.area_since = since(true, state.area_since, now);
+    state.crowd_since = since(count(defender) > 1, state.crowd_since, now);
+    state.attackers_since = since(count(other(defender)) > 1, state.attackers_since, now);
+    const auto too_long = [&](double began, double limit) { return began >= 0 && now - began > limit; };
+    Decision decision;
+    if (too_long(state.crowd_since, kCrowd) || now - state.area_since >= kStandstill)
+        decision = {Call::kPenalty, other(defender)};
+    else if (too_long(state.attackers_since, kCrowd))
+        decision = {Call::kGoalKick, defender};
+    else
+        return false;
+    decisions.push_back(decision);
+    const Restart restart = *restart_of(decision, scene);
     begin_play(scene, restart.ball_x, restart.ball_y);
     return true;
 }
@@ -121,6 +137,8 @@ std::optional<Restart> Referee::restart_of(const Decision& decision, const Scene
             return kick_off(decision.team);
         case Call::kFreeBall:
             return free_ball(scene);
+        case Call::kGoalKick:
+            return goal_kick(decision.team);
         case Call::kPenalty:
             return penalty(decision.team);
         default:
@@ -160,6 +178,17 @@ Restart Referee::free_ball(const Scene& scene) const {
             restart.robots[static_cast<std::size_t>(each)].push_back(placed(each, stand));
         }
     }
+    return restart;
+}
+
+/// The ball lies before the goalkeeper, in its goal area; all others are in their own halves.
+Restart Referee::goal_kick(Team team) const {
+    Restart restart;
+    restart.ball_x = side(team) * (0.6 * kRobotSize + 0.09 - field_.half_length);
+    for (const Team each : {Team::kBlue, Team::kYellow})
+        for (int i = 0; i < field_.robots; ++i)
+            restart.robots[static_cast<std::size_t>(each)].push_back(
+                placed(each, kick_off_stand(field_, i, false)));
     return restart;
 }
 

@@ -14,13 +14,15 @@ enum class Call : int {
     kKickOff,   // at the start of a half, and after a goal for the other team
     kGoal,      // counted; a kick-off follows at once
     kFreeBall,  // the ball did not move for ten seconds, or it left the field
+    kGoalKick,  // two attackers are in the goal area with the ball
     kPenalty,   // against a team whose goalkeeper keeps the ball in its goal area, or is not alone there
     kHalfTime,  // the teams change ends; a kick-off follows at once
     kFullTime,
 };
 const char* name_of(Call call);
 
-/// Something that the referee called, for `team`: that has the kick-off, the goal or the penalty kick.
+/// Something that the referee called, for `team`: that has the kick-off, the goal, the goal kick or the
+/// penalty kick.
 struct Decision {
     Call call{};
     Team team = Team::kBlue;
@@ -50,7 +52,8 @@ struct MatchState {
     Phase phase = Phase::kBeforeStart;
     std::array<int, 2> score{};
     double rest_x = 0, rest_y = 0, rest_since = 0;  // where the ball has been, about, since when
-    double area_since = -1, crowd_since = -1;       // ball in a goal area; with two defenders; negative: no
+    // Ball in a goal area; with two defenders; with two attackers; negative: no.
+    double area_since = -1, crowd_since = -1, attackers_since = -1;
 };
 
 class Referee {
@@ -74,6 +77,7 @@ class Referee {
     Team defender_at(double x) const { return side(Team::kBlue) * x < 0 ? Team::kBlue : Team::kYellow; }
     Restart kick_off(Team team) const;
     Restart free_ball(const Scene& scene) const;
+    Restart goal_kick(Team team) const;
     Restart penalty(Team team) const;
     Stand placed(Team team, Stand own) const;
 

@@ -55,7 +55,8 @@ class RefereeProgram final : public roboss::ControlProgram {
         std::ostringstream text;
         text << static_cast<int>(s.phase) << ' ' << s.score[0] << ' ' << s.score[1] << ' ' << skip_;
         char number[40];
-        for (const double value : {s.rest_x, s.rest_y, s.rest_since, s.area_since, s.crowd_since}) {
+        for (const double value :
+             {s.rest_x, s.rest_y, s.rest_since, s.area_since, s.crowd_since, s.attackers_since}) {
             std::snprintf(number, sizeof number, " %.17g", value);
             text << number;
         }
@@ -66,7 +67,7 @@ class RefereeProgram final : public roboss::ControlProgram {
         std::istringstream text(memory);
         int phase = 0;
         text >> phase >> s.score[0] >> s.score[1] >> skip_;
-        text >> s.rest_x >> s.rest_y >> s.rest_since >> s.area_since >> s.crowd_since;
+        text >> s.rest_x >> s.rest_y >> s.rest_since >> s.area_since >> s.crowd_since >> s.attackers_since;
         s.phase = static_cast<MatchState::Phase>(phase);
     }
 

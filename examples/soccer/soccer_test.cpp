@@ -126,10 +126,40 @@ TEST(Referee, TwoDefendersInTheirGoalAreaWithTheBallCostAPenaltyKick) {
     EXPECT_EQ(in_that_half, 2) << "the goalkeeper and the kicker";
 }
 
+TEST(Referee, TwoAttackersInTheGoalAreaWithTheBallGiveAGoalKick) {
+    Referee referee(small_field(), 300);
+    Scene scene = kick_off_scene(referee);
+    scene.ball_x = -0.68, scene.ball_y = 0.1;
+    scene.robots[1][1] = {-0.65, -0.1}, scene.robots[1][2] = {-0.64, 0.2};
+    for (scene.time_s = 1; scene.time_s < 1.9; scene.time_s += 0.1) EXPECT_TRUE(referee.look(scene).empty());
+    scene.time_s = 2.2;
+    const auto decisions = referee.look(scene);
+    ASSERT_EQ(decisions.size(), 1u);
+    EXPECT_EQ(decisions[0].call, Call::kGoalKick);
+    EXPECT_EQ(decisions[0].team, Team::kBlue);
+    const auto restart = referee.restart_of(decisions[0], scene);
+    ASSERT_TRUE(restart);
+    EXPECT_TRUE(in_goal_area(small_field(), restart->ball_x, restart->ball_y));
+    EXPECT_LT(restart->ball_x, restart->robots[0][1].x);
+    EXPECT_GT(restart->ball_x - restart->robots[0][0].x, kRobotSize / 2 + kBallRadius)
+        << "free of the keeper";
+    for (const Stand& stand : restart->robots[1]) EXPECT_GT(stand.x, 0) << "attackers wait in their half";
+    scene.time_s = 2.3;
+    EXPECT_TRUE(referee.look(scene).empty()) << "it is called once";
+}
+
+TEST(Referee, OneAttackerInTheGoalAreaIsNoGoalKick) {
+    Referee referee(small_field(), 300);
+    Scene scene = kick_off_scene(referee);
+    scene.ball_x = -0.68, scene.ball_y = 0.1;
+    scene.robots[1][1] = {-0.65, -0.1};
+    for (scene.time_s = 1; scene.time_s < 9; scene.time_s += 0.1) EXPECT_TRUE(referee.look(scene).empty());
+}
+
 TEST(Referee, NobodyIsPutIntoAnotherRobotInAnyLeague) {
     for (const Field& field : kFields) {
         Referee referee(field, 300);
-        for (const Call call : {Call::kKickOff, Call::kFreeBall, Call::kPenalty})
+        for (const Call call : {Call::kKickOff, Call::kFreeBall, Call::kGoalKick, Call::kPenalty})
             for (const Team team : {Team::kBlue, Team::kYellow})
                 for (const double sign : {-1.0, 1.0}) {
                     Scene scene;

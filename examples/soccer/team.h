@@ -1,9 +1,11 @@
-// A team as a control program: it looks at the field sixty times a second, and sets the speeds of its wheels.
+// A team as a control program: it looks at the field sixty times a second, and sets the speeds of its wheels,
+// or in a world with radio sends them to its robots (radio_link.h).
 #pragma once
 
 #include <stdexcept>
 #include <vector>
 
+#include "radio_link.h"
 #include "strategies.h"
 
 namespace soccer {
@@ -29,6 +31,7 @@ class TeamProgram final : public roboss::ControlProgram {
                 "  remedy: give noise in mm and degrees, and a delay in ms: \"2 1 33\"");
         camera_ = *camera;
         half_s_ = half_length_s();
+        radio_Hz_ = radio_rate_Hz();
     }
 
     void control(roboss::Client& client) override {
@@ -36,20 +39,21 @@ class TeamProgram final : public roboss::ControlProgram {
         const double time_s = client.time_s();
         if (time_s < 2 * half_s_)
             speeds = kStrategy(see(client, pitch_, kTeam, camera_, side_of(kTeam, time_s >= half_s_)));
-        for (std::size_t i = 0; i < speeds.size(); ++i) {
-            const roboss::RobotId robot = pitch_.of_team(kTeam)[i];
+        if (const auto station = pitch_.stations[static_cast<std::size_t>(kTeam)]) {
             // Refused only if the Model changed under us; the next frame tries again.
-            (void)client.set_joint(robot, "left", roboss::MotorMode::kVelocity,
-                                   speeds[i].left / kWheelRadius);
-            (void)client.set_joint(robot, "right", roboss::MotorMode::kVelocity,
-                                   speeds[i].right / kWheelRadius);
+            if (is_time_to_send(time_s, radio_Hz_))
+                (void)client.transmit(*station, kRadio, message_of(speeds));
+            return;
         }
+        for (std::size_t i = 0; i < speeds.size(); ++i)
+            set_wheels(client, pitch_.of_team(kTeam)[i], speeds[i]);
     }
 
   private:
     Pitch pitch_;
     Camera camera_;
     double half_s_ = 0;  // length of a half
+    int radio_Hz_ = 60;  // messages in a second
 };
 
 }  // namespace soccer

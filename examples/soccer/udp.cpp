@@ -30,6 +30,18 @@ sockaddr_in socket_address(const Address& address) {
                              "\n  remedy: end the program that uses the port, or choose another one");
 }
 
+int open_socket() {
+    const int result = socket(AF_INET, SOCK_DGRAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0);
+    if (result < 0) fail("cannot open a UDP socket");
+    return result;
+}
+
+void send_datagram(int from, const std::string& bytes, const Address& to) {
+    const sockaddr_in remote = socket_address(to);
+    (void)sendto(from, bytes.data(), bytes.size(), 0, reinterpret_cast<const sockaddr*>(&remote),
+                 sizeof remote);
+}
+
 }  // namespace
 
 Address Address::from_environment(const char* variable, const Address& fallback) {
@@ -44,38 +56,57 @@ Address Address::from_environment(const char* variable, const Address& fallback)
     return {text.substr(0, colon), port};
 }
 
-Udp::Udp(const Address& listen, const Address& send_to) : to_(send_to) {
-    const sockaddr_in local = socket_address(listen), remote = socket_address(send_to);
-    in_ = socket(AF_INET, SOCK_DGRAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0);
-    out_ = socket(AF_INET, SOCK_DGRAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0);
-    if (in_ < 0 || out_ < 0) fail("cannot open UDP sockets");
-    if (bind(in_, reinterpret_cast<const sockaddr*>(&local), sizeof local) != 0)
-        fail("cannot listen at " + listen.text());
-    if (IN_MULTICAST(ntohl(remote.sin_addr.s_addr))) {
-        // By the interface that commands come in at, with a copy for programs of this computer.
-        const int one = 1;
-        if (setsockopt(out_, IPPROTO_IP, IP_MULTICAST_IF, &local.sin_addr, sizeof local.sin_addr) != 0 ||
-            setsockopt(out_, IPPROTO_IP, IP_MULTICAST_LOOP, &one, sizeof one) != 0)
-            fail("cannot send by multicast at " + listen.ip);
-    }
+UdpReceiver::UdpReceiver(const Address& listen) : socket_(open_socket()) {
+    const sockaddr_in local = socket_address(listen);
+    if (bind(socket_, reinterpret_cast<const sockaddr*>(&local), sizeof local) == 0) return;
+    const int reason = errno;
+    close(socket_);
+    errno = reason;
+    fail("cannot listen at " + listen.text());
 }
 
-Udp::~Udp() {
-    if (in_ >= 0) close(in_);
-    if (out_ >= 0) close(out_);
+UdpReceiver::~UdpReceiver() {
+    close(socket_);
 }
 
-std::optional<std::string> Udp::receive() {
+std::optional<std::string> UdpReceiver::receive() {
     std::array<char, 65536> buffer;
-    const ssize_t size = recv(in_, buffer.data(), buffer.size(), 0);
+    sockaddr_in from{};
+    socklen_t from_size = sizeof from;
+    const ssize_t size =
+        recvfrom(socket_, buffer.data(), buffer.size(), 0, reinterpret_cast<sockaddr*>(&from), &from_size);
     if (size < 0) return std::nullopt;
+    std::array<char, INET_ADDRSTRLEN> ip{};
+    inet_ntop(AF_INET, &from.sin_addr, ip.data(), ip.size());
+    sender_ = {ip.data(), ntohs(from.sin_port)};
     return std::string(buffer.data(), static_cast<std::size_t>(size));
 }
 
-void Udp::send(const std::string& bytes) {
-    const sockaddr_in remote = socket_address(to_);
-    (void)sendto(out_, bytes.data(), bytes.size(), 0, reinterpret_cast<const sockaddr*>(&remote),
-                 sizeof remote);
+void UdpReceiver::reply(const std::string& bytes) {
+    send_datagram(socket_, bytes, sender_);
+}
+
+UdpSender::UdpSender(const Address& to, const Address& by) : to_(to) {
+    const sockaddr_in local = socket_address(by), remote = socket_address(to);
+    socket_ = open_socket();
+    if (!IN_MULTICAST(ntohl(remote.sin_addr.s_addr))) return;
+    // By the interface that commands come in at, with a copy for programs of this computer.
+    const int one = 1;
+    if (setsockopt(socket_, IPPROTO_IP, IP_MULTICAST_IF, &local.sin_addr, sizeof local.sin_addr) == 0 &&
+        setsockopt(socket_, IPPROTO_IP, IP_MULTICAST_LOOP, &one, sizeof one) == 0)
+        return;
+    const int reason = errno;
+    close(socket_);
+    errno = reason;
+    fail("cannot send by multicast at " + by.ip);
+}
+
+UdpSender::~UdpSender() {
+    close(socket_);
+}
+
+void UdpSender::send(const std::string& bytes) {
+    send_datagram(socket_, bytes, to_);
 }
 
 }  // namespace soccer

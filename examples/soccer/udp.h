@@ -1,4 +1,4 @@
-// Two UDP sockets of a bridge: commands come in, vision goes out, possibly by multicast.
+// UDP sockets of a bridge: commands come in and are answered, vision goes out, possibly by multicast.
 #pragma once
 
 #include <optional>
@@ -16,19 +16,36 @@ struct Address {
     std::string text() const { return ip + ":" + std::to_string(port); }
 };
 
-class Udp {
+/// A socket that datagrams come in at.
+class UdpReceiver {
   public:
     /// @throws std::runtime_error where the network refuses.
-    Udp(const Address& listen, const Address& send_to);
-    ~Udp();
-    Udp(const Udp&) = delete;
-    Udp& operator=(const Udp&) = delete;
+    explicit UdpReceiver(const Address& listen);
+    ~UdpReceiver();
+    UdpReceiver(const UdpReceiver&) = delete;
+    UdpReceiver& operator=(const UdpReceiver&) = delete;
 
     std::optional<std::string> receive();  // the next datagram that has arrived; it does not wait
-    void send(const std::string& bytes);   // as UDP does: it may be lost
+    void reply(const std::string& bytes);  // to the sender of the datagram received last
 
   private:
-    int in_ = -1, out_ = -1;
+    int socket_ = -1;
+    Address sender_;
+};
+
+/// A socket that datagrams go out from.
+class UdpSender {
+  public:
+    /// `by`: the interface for multicast. @throws std::runtime_error where the network refuses.
+    UdpSender(const Address& to, const Address& by);
+    ~UdpSender();
+    UdpSender(const UdpSender&) = delete;
+    UdpSender& operator=(const UdpSender&) = delete;
+
+    void send(const std::string& bytes);  // as UDP does: it may be lost
+
+  private:
+    int socket_ = -1;
     Address to_;
 };
 

@@ -74,9 +74,23 @@ Kind add_soccer(CLI::App& app) {
     auto options = std::make_shared<roboss::SoccerOptions>();
     CLI::App* make = app.add_subcommand(
         "soccer",
-        "a field of FIRA MiroSot with two teams of two-wheeled cubes and a golf ball (docs/soccer.md)");
-    add_option(make, "--league", options->league, "small: 3 robots a side, middle: 5, large: 11",
-               CLI::IsMember({"small", "middle", "large"}));
+        "a field of robot soccer with two teams and a golf ball (docs/soccer.md): FIRA MiroSot with\n"
+        "two-wheeled cubes, or RoboCup's Small Size League with robots of four omnidirectional wheels");
+    add_option(
+        make, "--league", options->league,
+        "MiroSot: small (3 robots a side), middle (5), large (11); Small Size League: ssl-b (6), ssl-a (11)",
+        CLI::IsMember({"small", "middle", "large", "ssl-a", "ssl-b"}));
+    make->add_flag(
+        "--radio", options->radio,
+        "MiroSot: robots get their commands by radio, from a station of their team beside the field");
+    add_option(make, "--radio-loss", options->radio_loss,
+               "probability that a robot does not get a message, 0 to 1; more than 0 implies --radio",
+               CLI::Range(0.0, 1.0));
+    make->callback([options] {
+        options->radio = options->radio || options->radio_loss > 0;
+        if (options->radio && options->league.starts_with("ssl"))
+            throw CLI::ValidationError("--radio", "only the leagues small, middle and large have radios");
+    });
     return kind(make, options, roboss::soccer_sdf);
 }
 

@@ -10,7 +10,9 @@
 #include <utility>
 
 #include "app/text.h"
+#include "app/worlds/soccer_boxes.h"
 #include "app/worlds/soccer_field.h"
+#include "app/worlds/ssl_world.h"
 #include "core/fixed_math.h"
 
 namespace roboss {
@@ -77,22 +79,6 @@ constexpr const char* kWheel = R"(      <link name="{0}_wheel">
       </joint>
 )";
 
-struct Box {
-    double x = 0, y = 0, z = 0, length = 0, width = 0, height = 0, yaw = 0;
-};
-
-std::string placed(const Box& box) {
-    return fmt::format(
-        "<pose>{:.5f} {:.5f} {:.5f} 0 0 {:.5f}</pose><geometry><box><size>{:.5f} {:.5f} {:.5f}"
-        "</size></box></geometry>",
-        box.x, box.y, box.z, box.yaw, box.length, box.width, box.height);
-}
-
-void add_visual(Text& text, const std::string& name, const Box& box, std::string_view colour) {
-    add(text, "        <visual name=\"{}\">{}<material><diffuse>{} 1</diffuse></material></visual>\n", name,
-        placed(box), colour);
-}
-
 void add_head(Text& text, const Field& field) {
     add(text, R"(<?xml version="1.0"?>
 <!-- Robot soccer, {0} league, {1} against {1}. Made by: roboss-world soccer, league {0}. Change the generator, not this file. -->
@@ -121,13 +107,13 @@ void add_head(Text& text, const Field& field) {
 /// A wall over the rectangle; restitution of wood.
 void add_wall(Text& text, const std::string& name, double low_x, double high_x, double low_y, double high_y,
               double yaw = 0) {
-    const Box box{(low_x + high_x) / 2,
-                  (low_y + high_y) / 2,
-                  soccer::kWallHeight / 2,
-                  high_x - low_x,
-                  high_y - low_y,
-                  soccer::kWallHeight,
-                  yaw};
+    const FieldBox box{(low_x + high_x) / 2,
+                       (low_y + high_y) / 2,
+                       soccer::kWallHeight / 2,
+                       high_x - low_x,
+                       high_y - low_y,
+                       soccer::kWallHeight,
+                       yaw};
     add(text, "        <collision name=\"{}\">{}<surface>", name, placed(box));
     add(text,
         "<friction><ode><mu>0.3</mu><mu2>0.3</mu2></ode></friction><bounce><restitution_coefficient>0.5"
@@ -230,7 +216,34 @@ void add_scoreboard(Text& text, const Field& f) {
     add(text, "    </model>\n");
 }
 
-void add_robot(Text& text, const Field& field, std::string_view team, int number) {
+/// 38400 bit/s, as radio modules of the league had: commands for three robots take 2.5 ms. Each team has a
+/// channel.
+void add_radio(Text& text, const SoccerOptions& options, bool blue, double height) {
+    add(text,
+        "        <roboss:radio name=\"radio\"><pose>0 0 {} 0 0 0</pose><channel>{}</channel>"
+        "<bit_rate>38400</bit_rate><loss>{}</loss></roboss:radio>\n",
+        height, blue ? 1 : 2, options.radio_loss);
+}
+
+void add_station(Text& text, const SoccerOptions& options, const Field& f, std::string_view team) {
+    const bool blue = team == "blue";
+    add(text,
+        "    <model name=\"{}_station\">\n      <pose>{:.3f} {:.3f} 0 0 0 0</pose>\n      <link "
+        "name=\"station\">\n",
+        team, (blue ? -0.5 : 0.5) * f.half_length, -f.half_width - 0.25);
+    add(text,
+        "        "
+        "<inertial><mass>1</mass><inertia><ixx>0.1</ixx><iyy>0.1</iyy><izz>0.1</izz></inertia></inertial>\n");
+    add_visual(text, "box", {0, 0, 0.03, 0.16, 0.10, 0.06, 0}, "0.20 0.22 0.25");
+    add_visual(text, "mast", {0, 0, 0.18, 0.008, 0.008, 0.24, 0}, blue ? "0.10 0.30 0.95" : "0.98 0.82 0.05");
+    add_radio(text, options, blue, 0.3);
+    add(text,
+        "      </link>\n      <joint name=\"fixed\" "
+        "type=\"fixed\"><parent>world</parent><child>station</child></joint>\n    </model>\n");
+}
+
+void add_robot(Text& text, const SoccerOptions& options, const Field& field, std::string_view team,
+               int number) {
     const bool blue = team == "blue";
     const soccer::Stand stand = soccer::kick_off_stand(field, number, blue);
     add(text, "    <model name=\"{}_{}\">\n      <pose>{:.4f} {:.4f} 0 0 0 {}</pose>\n{}", team, number,
@@ -240,6 +253,7 @@ void add_robot(Text& text, const Field& field, std::string_view team, int number
                blue ? "0.10 0.30 0.95" : "0.98 0.82 0.05");
     add_visual(text, "front", {0.024, 0, 0.074, 0.020, 0.06, 0.002, 0},
                number == 0 ? "0.85 0.10 0.10" : "0.10 0.10 0.10");
+    if (options.radio) add_radio(text, options, blue, 0.08);
     add(text, "      </link>\n");
     for (const auto& [name, y] : {std::pair{"left", 0.031}, std::pair{"right", -0.031}})
         fmt::format_to(std::back_inserter(text), fmt::runtime(kWheel), name, y);
@@ -273,6 +287,8 @@ void add_ball(Text& text) {
 }  // namespace
 
 std::string soccer_sdf(const SoccerOptions& options) {
+    for (const soccer::SslField& field : soccer::kSslFields)
+        if (field.league == options.league) return ssl_sdf(field);
     Text text;
     for (const Field& field : soccer::kFields) {
         if (field.league != options.league) continue;
@@ -281,9 +297,11 @@ std::string soccer_sdf(const SoccerOptions& options) {
         add_lines(text, field);
         add(text, "      </link>\n    </model>\n");
         for (const std::string_view team : {"blue", "yellow"})
-            for (int i = 0; i < field.robots; ++i) add_robot(text, field, team, i);
+            for (int i = 0; i < field.robots; ++i) add_robot(text, options, field, team, i);
         add_ball(text);
         add_scoreboard(text, field);
+        if (options.radio)
+            for (const std::string_view team : {"blue", "yellow"}) add_station(text, options, field, team);
         add(text, "  </world>\n</sdf>\n");
     }
     return fmt::to_string(text);
