@@ -43,7 +43,8 @@ def test_names_that_do_not_exist(crossroads):
 
 @pytest.mark.parametrize("threads", [-1, 0, 1025, 10**9])
 def test_numbers_of_threads_that_cannot_be(threads):
-    for make in (lambda: roboss.Simulation(BALL.format(""), threads=threads), lambda: roboss.Batch(BALL.format(""), 1, threads=threads)):
+    ball = BALL.format("")
+    for make in (lambda: roboss.Simulation(ball, threads=threads), lambda: roboss.Batch(ball, 1, threads=threads)):
         with pytest.raises(roboss.ArgumentError) as error:
             make()
         refused(error, "bad-threads", str(threads), "1024")
