@@ -1,8 +1,12 @@
 // The controller of a cell against a scripted plant: boxes that are missed or lost. Then whole cells: boxes
 // are moved and none falls, with equal hashes on one and four Simulators and in a continued run.
 #include <gtest/gtest.h>
+#include <support/world_text.h>
 
 #include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
 #include <functional>
 #include <memory>
 #include <string>
@@ -11,7 +15,6 @@
 #include "app/worlds/cell_world.h"
 #include "cell.h"
 #include "client/plugin.h"
-#include "sdf/load_world.h"
 #include "simulation/simulation.h"
 
 namespace arm_cell {
@@ -89,11 +92,7 @@ TEST(Cell, AMissedBoxIsFetchedAgain) {
 }
 
 std::shared_ptr<const roboss::Model> compiled(const std::string& text) {
-    roboss::Diagnostics diagnostics;
-    const auto world = roboss::load_world_text(text, "cells.sdf", {}, diagnostics);
-    auto model = world ? roboss::compile(*world, {}, diagnostics) : nullptr;
-    for (const roboss::Diagnostic& finding : diagnostics.items()) ADD_FAILURE() << to_text(finding);
-    return model;
+    return roboss::test::compiled_text(text, "cells.sdf");
 }
 
 std::unique_ptr<roboss::Simulation> cells(const std::shared_ptr<const roboss::Model>& model,
@@ -153,6 +152,21 @@ TEST(ArmCells, WithSlipperyPadsMoveNoBox) {
     auto one = cells(compiled(text), 1);
     ASSERT_TRUE(one->run_until(roboss::Tick(std::llround(kSeconds / one->model().dt_s))).ok());
     EXPECT_EQ(on_out_belt(*one, 0), 0) << "nothing but friction holds a box";
+}
+
+TEST(ArmCells, AShortRunReportsItsCountsAtItsEnd) {
+    const std::string file = ::testing::TempDir() + "roboss_cells.json";
+    std::filesystem::remove(file);
+    ::setenv("ROBOSS_CELLS_RESULT", file.c_str(), 1);
+    auto one = cells(compiled(roboss::cell_sdf({1, "fingers"})), 1);
+    ASSERT_TRUE(one->run_until(50).ok());
+    EXPECT_FALSE(std::filesystem::exists(file));
+    one.reset();
+    ::unsetenv("ROBOSS_CELLS_RESULT");
+    std::string line;
+    std::getline(std::ifstream(file) >> std::ws, line);
+    EXPECT_TRUE(line.starts_with("{\"time_s\": 0, \"cells\": [{\"moved\": 0")) << line;
+    std::filesystem::remove(file);
 }
 
 }  // namespace

@@ -26,6 +26,9 @@ struct Devices {
 
 class CellProgram final : public roboss::ControlProgram {
   public:
+    ~CellProgram() override {
+        if (!has_reported_ && now_s_ > 0) report_at_end([this] { report_all(now_s_); });
+    }
     roboss::ControlOptions options() const override { return {kPeriod, -1, true}; }
     void start(roboss::Client& client) override;
     void control(roboss::Client& client) override;
@@ -43,6 +46,8 @@ class CellProgram final : public roboss::ControlProgram {
     std::vector<Devices> devices_;
     std::vector<Cell> cells_;
     double period_s_ = 0, reported_ = 0;  // of the reports
+    double now_s_ = 0;                    // of the last control()
+    bool has_reported_ = false;
 };
 
 void CellProgram::start(roboss::Client& client) {
@@ -125,9 +130,11 @@ void CellProgram::report_all(double time_s) const {
 
 void CellProgram::control(roboss::Client& client) {
     for (std::size_t i = 0; i < cells_.size(); ++i) control_cell(client, devices_[i], cells_[i]);
-    if (client.time_s() < reported_ + period_s_) return;
+    now_s_ = client.time_s();
+    if (now_s_ < reported_ + period_s_) return;
     reported_ += period_s_;
-    report_all(client.time_s());
+    has_reported_ = true;
+    report_all(now_s_);
 }
 
 std::string CellProgram::memory() const {

@@ -32,6 +32,9 @@ struct Stock {
 
 class Feeder final : public roboss::ControlProgram {
   public:
+    ~Feeder() override {
+        if (!has_reported_ && now_s_ > 0) report_at_end([this] { report_all(now_s_); });
+    }
     /// Without latency: a box that was put is seen where it was put.
     roboss::ControlOptions options() const override { return {kLook, 0, true}; }
     void start(roboss::Client& client) override;
@@ -47,6 +50,8 @@ class Feeder final : public roboss::ControlProgram {
 
     std::vector<Stock> stocks_;
     double period_s_ = 0, reported_ = 0;  // of the reports
+    double now_s_ = 0;                    // of the last control()
+    bool has_reported_ = false;
 };
 
 void Feeder::start(roboss::Client& client) {
@@ -134,9 +139,11 @@ void Feeder::control(roboss::Client& client) {
         look(client, stocks_[i]);
         feed(client, static_cast<int>(i), stocks_[i]);
     }
-    if (client.time_s() < reported_ + period_s_) return;
+    now_s_ = client.time_s();
+    if (now_s_ < reported_ + period_s_) return;
     reported_ += period_s_;
-    report_all(client.time_s());
+    has_reported_ = true;
+    report_all(now_s_);
 }
 
 std::string Feeder::memory() const {

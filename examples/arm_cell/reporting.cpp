@@ -9,8 +9,9 @@ namespace arm_cell {
 
 double report_period_s() {
     const char* text = std::getenv("ROBOSS_CELLS_REPORT");
-    const double seconds = text != nullptr ? std::atof(text) : 600;
-    if (!(seconds >= 1))
+    char* end = nullptr;
+    const double seconds = text != nullptr ? std::strtod(text, &end) : 600;
+    if (!(seconds >= 1) || (end != nullptr && *end != '\0'))
         throw std::runtime_error(std::string("ROBOSS_CELLS_REPORT is \"") + text +
                                  "\"\n  remedy: give the time between two reports in seconds, at least 1");
     return seconds;
@@ -26,6 +27,14 @@ void report(const std::string& line, const char* variable) {
     if (!out)
         throw std::runtime_error(std::string("cannot write the report to ") + file + "\n  remedy: set " +
                                  variable + " to a file in a writable folder");
+}
+
+void report_at_end(const std::function<void()>& report) noexcept {
+    try {
+        report();
+    } catch (const std::exception& error) {
+        std::fprintf(stderr, "%s\n", error.what());
+    }
 }
 
 std::string exact(double value) {

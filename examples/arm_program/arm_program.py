@@ -260,6 +260,8 @@ def main(arguments=None):
     parser.add_argument("--simulate", action="store_true", help="the arm performs it")
     parser.add_argument("--json", action="store_true", help="print the facts as JSON")
     options = parser.parse_args(arguments)
+    if not options.ramp > 0:
+        parser.error("--ramp takes a time above 0")
     try:
         commands = read_program(options.program.read_text())
         with warnings.catch_warnings():
@@ -271,7 +273,7 @@ def main(arguments=None):
         facts = {"arm": robot, "link": planner.link, **report(steps)}
         if options.simulate and facts["reached"]:
             facts["simulation"] = simulate(world, planner, steps)
-    except (OSError, ProgramError, roboss.RobossError) as error:
+    except (OSError, UnicodeDecodeError, ProgramError, roboss.RobossError) as error:
         print(f"arm_program: {error}", file=sys.stderr)
         return 2
     if options.json:

@@ -15,7 +15,7 @@ import random
 import select
 import socket
 
-from stand_in import Diary, Hardware, say
+from stand_in import Diary, Hardware, guarded, say
 
 VERSION = 1
 
@@ -184,6 +184,11 @@ def main():
     parser.add_argument("--duration", type=float, default=0.0, help="s; 0: until SIGTERM")
     parser.add_argument("--seed", type=int, default=1)
     options = parser.parse_args()
+    if min(options.rate, options.frames) <= 0:
+        parser.error("--rate and --frames take numbers above 0")
+    for each in options.robot:
+        if not each.partition(":")[2].isdigit():
+            parser.error(f"--robot {each}: write NAME:PORT, for instance blue_0:2008")
     hardware = Hardware(options.world, options.drift, options.seed)
     robots = []
     for each in options.robot:
@@ -210,4 +215,4 @@ def main():
 
 
 if __name__ == "__main__":
-    main()
+    guarded(main)

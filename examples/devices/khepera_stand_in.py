@@ -14,7 +14,7 @@ import pty
 import select
 import tty
 
-from stand_in import Diary, Hardware, say
+from stand_in import Diary, Hardware, guarded, say
 
 EYES = ["left", "front_left", "ahead_left", "ahead_right", "front_right", "right", "back_right", "back_left"]
 PULSE = 2 * math.pi / 600           # rad
@@ -141,8 +141,11 @@ def main():
     parser.add_argument("--reboot-at", type=float, action="append", default=[], help="s, by its clock (may be repeated)")
     parser.add_argument("--duration", type=float, default=0.0, help="s; 0: until SIGTERM")
     parser.add_argument("--seed", type=int, default=1)
-    Khepera(parser.parse_args()).run()
+    options = parser.parse_args()
+    if options.baud <= 0:
+        parser.error("--baud takes a number above 0")
+    Khepera(options).run()
 
 
 if __name__ == "__main__":
-    main()
+    guarded(main)

@@ -5,9 +5,20 @@ A stand-in plays a real robot for `roboss device`. It shares nothing with the co
 import json
 import random
 import signal
+import sys
 import time
+from pathlib import Path
 
 import roboss
+
+
+def guarded(main):
+    """Runs a stand-in; ends the process with 2 and a clear text where its input is wrong."""
+    try:
+        main()
+    except (roboss.RobossError, OSError) as error:
+        print(f"{Path(sys.argv[0]).stem}: {error}", file=sys.stderr)
+        sys.exit(2)
 
 
 class Hardware:

@@ -14,13 +14,17 @@ LIBRARY = Path(__file__).parents[2] / "build/release/lib/roboss_spider_gait.so"
 JOINTS, LEGS = 18, 6
 
 
+class GaitError(Exception):
+    """A gait cannot be used; the text has the file and a remedy."""
+
+
 class Gaits:
     """Functions of gaits; `names` and `default` describe the numbers of one."""
 
     def __init__(self, library=None):
         path = Path(library or os.environ.get("ROBOSS_SPIDER_LIBRARY", LIBRARY))
         if not path.exists():
-            raise SystemExit(f"{path}: there is no such library\n  remedy: tools/build.sh release roboss_spider_gait")
+            raise GaitError(f"{path}: there is no such library\n  remedy: tools/build.sh release roboss_spider_gait")
         self._library = ctypes.CDLL(str(path))
         self._library.roboss_spider_name.restype = ctypes.c_char_p
         self.names, index = [], ctypes.c_size_t(0)
@@ -45,12 +49,28 @@ class Gaits:
         return out
 
     def load(self, file):
-        """The gait of a file; what it leaves out has its default."""
-        with open(file, "rb") as stream:
-            values = tomllib.load(stream)
+        """The gait of a file; what it leaves out has its default. Raises GaitError where it is no gait."""
+        try:
+            with open(file, "rb") as stream:
+                values = tomllib.load(stream)
+        except OSError as error:
+            raise GaitError(f"{file}: {error.strerror}\n  remedy: give a file such as examples/spider/gaits/walk.toml") from None
+        except ValueError as error:  # no TOML, or no UTF-8
+            raise GaitError(f"{file}: {error}\n  remedy: write lines such as `stride = 0.1`") from None
+        if not values:
+            raise GaitError(f"{file}: names no parameter of a gait\n  remedy: write lines such as `stride = 0.1`")
         gait = self.default.copy()
         for name, value in values.items():
-            for part, number in ([(name, value)] if name != "phases" else [(f"phase_{i}", v) for i, v in enumerate(value)]):
+            numbers = value if name == "phases" else [value]
+            parts = [f"phase_{leg}" for leg in range(LEGS)] if name == "phases" else [name]
+            if parts[0] not in self.names:
+                raise GaitError(f"{file}: there is no parameter '{name}'\n  remedy: there are "
+                                f"phases, {', '.join(part for part in self.names if not part.startswith('phase_'))}")
+            if not isinstance(numbers, list) or len(numbers) != len(parts) or \
+                    not all(type(number) in (int, float) and np.isfinite(number) for number in numbers):
+                raise GaitError(f"{file}: '{name}' does not take {value!r}\n  remedy: give "
+                                + ("six numbers in brackets" if name == "phases" else "one number"))
+            for part, number in zip(parts, numbers):
                 gait[self.names.index(part)] = number
         return gait
 

@@ -1,12 +1,11 @@
 #include "gait_file.h"
 
-#include <cmath>
-#include <cstdlib>
+#include <toml++/toml.h>
+
 #include <fstream>
 #include <iterator>
 #include <sstream>
 #include <stdexcept>
-#include <string_view>
 #include <vector>
 
 namespace spider {
@@ -25,24 +24,23 @@ constexpr GaitField kFields[] = {
     {"lead_s", &Gait::lead_s, 0, 0.2},
 };
 
-std::string trimmed(std::string_view text) {
-    const auto begin = text.find_first_not_of(" \t\r");
-    if (begin == std::string_view::npos) return {};
-    return std::string(text.substr(begin, text.find_last_not_of(" \t\r") - begin + 1));
-}
-
 /// The numbers of `1.5` or of `[1, 2, 3]`; empty if it is neither.
-std::vector<double> numbers_of(std::string text) {
-    if (text.size() >= 2 && text.front() == '[' && text.back() == ']') text = text.substr(1, text.size() - 2);
+std::vector<double> numbers_of(const toml::node& node) {
+    if (const auto number = node.value<double>()) return {*number};
     std::vector<double> numbers;
-    std::istringstream parts(text);
-    for (std::string part; std::getline(parts, part, ',');) {
-        const std::string number = trimmed(part);
-        char* end = nullptr;
-        numbers.push_back(std::strtod(number.c_str(), &end));
-        if (number.empty() || *end != '\0' || !std::isfinite(numbers.back())) return {};
+    const toml::array* array = node.as_array();
+    for (std::size_t i = 0; array != nullptr && i < array->size(); ++i) {
+        const auto number = (*array)[i].value<double>();
+        if (!number) return {};
+        numbers.push_back(*number);
     }
     return numbers;
+}
+
+[[noreturn]] void refuse(const std::string& file, const toml::source_region& where,
+                         const std::string& problem) {
+    throw std::runtime_error(file + ":" + std::to_string(where.begin.line) + ": " + problem +
+                             "\n  remedy: correct the line, or remove it to keep the default");
 }
 
 std::string names() {
@@ -80,20 +78,17 @@ std::span<const GaitField> gait_fields() {
 
 Gait gait_of_text(const std::string& text, const std::string& file) {
     Gait gait;
-    std::istringstream lines(text);
-    int number = 0;
-    for (std::string line; std::getline(lines, line);) {
-        ++number;
-        const std::string content = trimmed(std::string_view(line).substr(0, line.find('#')));
-        if (content.empty()) continue;
-        const auto equals = content.find('=');
-        const std::string problem = equals == std::string::npos
-                                        ? "\"" + content + "\" is not `name = number`"
-                                        : set(gait, trimmed(content.substr(0, equals)),
-                                              numbers_of(trimmed(content.substr(equals + 1))));
-        if (!problem.empty())
-            throw std::runtime_error(file + ":" + std::to_string(number) + ": " + problem +
-                                     "\n  remedy: correct the line, or remove it to keep the default");
+    try {
+        const toml::table table = toml::parse(text, file);
+        if (table.empty())
+            throw std::runtime_error(file + ": names no parameter of a gait\n  remedy: write lines such as " +
+                                     "`stride = 0.1`; there are " + names());
+        for (const auto& [key, node] : table) {
+            const std::string problem = set(gait, std::string(key.str()), numbers_of(node));
+            if (!problem.empty()) refuse(file, node.source(), problem);
+        }
+    } catch (const toml::parse_error& error) {
+        refuse(file, error.source(), std::string(error.description()));
     }
     return gait;
 }

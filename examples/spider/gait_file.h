@@ -19,8 +19,8 @@ struct GaitField {
 /// All parameters but `phases`, in the order of the C interface.
 std::span<const GaitField> gait_fields();
 
-/// Reads `phases = [..]` and `name = number` lines; `#` begins a comment.
-/// @throws std::runtime_error with file, line and remedy.
+/// Reads `phases = [..]` and `name = number` lines of TOML.
+/// @throws std::runtime_error with file, line and remedy; also for a text without any parameter.
 Gait gait_of_text(const std::string& text, const std::string& file);
 Gait load_gait(const std::string& file);
 

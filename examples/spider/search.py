@@ -14,7 +14,8 @@ from pathlib import Path
 
 import numpy as np
 
-from gait import Gaits
+import roboss
+from gait import GaitError, Gaits
 from walking import Walker
 
 PROGRAMS = Path(__file__).parents[2] / "build/release/bin"
@@ -30,7 +31,13 @@ def world_of(spiders, options, programs=PROGRAMS):
     for name in ("motor_speed", "motor_torque", "abreast", "terrain", "height", "angle", "seed"):
         if getattr(options, name, None) is not None:
             command += ["--" + name.replace("_", "-"), getattr(options, name)]
-    return subprocess.run([str(word) for word in command], check=True, capture_output=True, text=True).stdout
+    try:
+        done = subprocess.run([str(word) for word in command], check=False, capture_output=True, text=True)
+    except OSError:
+        raise GaitError(f"{command[0]}: there is no such program\n  remedy: tools/build.sh release roboss-world") from None
+    if done.returncode != 0:
+        raise GaitError(done.stderr.strip())
+    return done.stdout
 
 
 def score(walk, options):
@@ -117,7 +124,11 @@ def options_of(arguments):
 
 def main(arguments=None):
     options = options_of(arguments)
-    search = Search(options)
+    try:
+        search = Search(options)
+    except (GaitError, roboss.RobossError) as error:
+        print(f"search: {error}", file=sys.stderr)
+        return 2
     gait, wall = search.run()
     # Its figures come from a longer walk than those of the search.
     walk = search.walker.walk(gait, 10.0, 4.0)
@@ -129,7 +140,8 @@ def main(arguments=None):
     bound = speed_bound(search.gaits, options.motor_speed, dict(zip(search.gaits.names, gait))["height"])
     print(f"no posture of a leg carries a trunk at this height faster than {bound:.3f} m/s with joints of {options.motor_speed:g} rad/s")
     Path(options.output).write_text(search.gaits.text(gait, f"Found by search.py {' '.join(arguments or sys.argv[1:])}\n{figures}"))
+    return 0
 
 
 if __name__ == "__main__":
-    main()
+    sys.exit(main())

@@ -1,5 +1,6 @@
 // The spider's gait as functions, its files, and walks on the ground.
 #include <gtest/gtest.h>
+#include <support/world_text.h>
 
 #include <cmath>
 #include <cstdlib>
@@ -11,7 +12,6 @@
 #include "client/plugin.h"
 #include "core/noise.h"
 #include "gait_file.h"
-#include "sdf/load_world.h"
 #include "simulation/simulation.h"
 
 namespace spider {
@@ -90,7 +90,8 @@ TEST(SpiderFile, SaysWhatItIsAndWhatIsWrongWithIt) {
     EXPECT_EQ(gait.phases[5], 0.25);
     EXPECT_EQ(gait.lift, Gait{}.lift);
     for (const char* bad :
-         {"strid = 0.1", "stride 0.1", "stride = far", "stride = 5", "stride = nan", "duty = 0",
+         {"strid = 0.1", "stride 0.1", "stride = far", "stride = 5", "stride = nan", "duty = 0", "",
+          "# nothing\n", "stride = 0.1\nstride = 0.2", "stride = \"0.1\"", "[gait]\nstride = 0.1",
           "phases = [0, 1]", "phases = [0, 0.5, 0.5, 0, 0, 1]", "stride = [0.1, 0.2]"}) {
         EXPECT_THROW((void)gait_of_text(bad, "b.toml"), std::runtime_error) << bad;
     }
@@ -106,11 +107,7 @@ TEST(SpiderFile, SaysWhatItIsAndWhatIsWrongWithIt) {
 std::shared_ptr<const roboss::Model> spiders_on_flat_ground(int spiders) {
     roboss::SpiderOptions options;
     options.spiders = spiders;
-    roboss::Diagnostics diagnostics;
-    const auto world = roboss::load_world_text(roboss::spider_sdf(options), "spiders.sdf", {}, diagnostics);
-    auto model = world ? roboss::compile(*world, {}, diagnostics) : nullptr;
-    for (const roboss::Diagnostic& finding : diagnostics.items()) ADD_FAILURE() << to_text(finding);
-    return model;
+    return roboss::test::compiled_text(roboss::spider_sdf(options), "spiders.sdf");
 }
 
 /// A walk on the course; `from`: a saved run that it continues.

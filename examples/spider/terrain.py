@@ -11,7 +11,8 @@ import sys
 
 import numpy as np
 
-from gait import Gaits
+import roboss
+from gait import GaitError, Gaits
 from search import world_of
 from walking import Walker, upright
 
@@ -42,8 +43,19 @@ def main():
     parser.add_argument("--seconds", type=float, default=25.0, help="that they have (default 25)")
     parser.add_argument("--seed", type=int, default=1, help="of the stones")
     options = parser.parse_args()
-    gaits = Gaits()
-    gait = gaits.load(options.gait)
+    if options.spiders < 1 or not options.seconds > 0:
+        parser.error("give one spider or more, and a time above 0")
+    try:
+        gaits = Gaits()
+        table(gaits, gaits.load(options.gait), options)
+    except (GaitError, roboss.RobossError) as error:
+        print(f"terrain: {error}", file=sys.stderr)
+        return 2
+    return 0
+
+
+def table(gaits, gait, options):
+    """Prints a row for each terrain."""
     for terrain in options.terrain:
         name, values = TERRAINS[terrain]
         through = []
@@ -59,4 +71,4 @@ def main():
 
 
 if __name__ == "__main__":
-    main()
+    sys.exit(main())

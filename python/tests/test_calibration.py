@@ -128,6 +128,40 @@ def test_times_that_are_not_those_of_a_run_are_refused(slide, change):
     assert error.value.code == "bad-times"
 
 
+def as_csv(slide, name, *, shift=(0, 0), late=0.0, delimiter=",", cell=lambda x: f"{x:.6f}"):
+    """The recorded slide as a tracker would have written it: moved in x and y, its clock late by some seconds."""
+    clean = read(slide / "run.parquet")
+    lines = ["# a tracker", delimiter.join(["time", "box.x", "box.y", "box.yaw"])]
+    for time, x, y, turn in list(zip(clean.time, clean["box.x"], clean["box.y"], clean["box.yaw"]))[::4]:
+        lines.append(delimiter.join([f"{time + late:.6f}", cell(x + shift[0]), f"{y + shift[1]:.6f}", f"{turn:.6f}"]))
+    (slide / name).write_text("\n".join(lines) + "\n")
+
+
+def test_start_pose_and_time_are_found_from_a_table_of_a_tracker(slide):
+    as_csv(slide, "moved.csv", shift=(0.12, -0.05), late=0.031, delimiter=";")
+    words = ["calibrate", "slide.sdf", "--run", "moved.csv=push.jsonl", "--parameter", f"mu={MU}@0.1..1", "--json"]
+    told = {row["name"]: row for row in json.loads(command(slide, *words, "--fit-start", "box", "--fit-time", "0.2"))["parameters"]}
+    assert told["mu"]["value"] == pytest.approx(0.4, rel=2e-3)
+    for name, value in (("time", 0.031), ("box x", 0.12), ("box y", -0.05), ("box yaw", 0)):
+        found = told[f"{name} of moved.csv"]
+        assert found["value"] == pytest.approx(value, abs=1e-3) and found["start"] == 0 and not found["at_bound"]
+    blind = json.loads(command(slide, *words))["parameters"][0]
+    assert abs(blind["value"] - 0.4) > 0.02  # without them mu is wrong
+
+
+def test_a_table_that_is_wrong_names_its_line(slide):
+    parameter = ("--parameter", f"mu={MU}")
+    as_csv(slide, "words.csv", cell=lambda x: "1,2" if x > 0.5 else "?" if x > 0.4 else "")
+    assert "words.csv:" in refused(slide, "bad-table", "--run", "words.csv=push.jsonl", *parameter)
+    (slide / "short.csv").write_text("time,box.x\n0,0\n0.1\n")
+    assert "short.csv:3" in refused(slide, "bad-table", "--run", "short.csv=push.jsonl", *parameter)
+    (slide / "timeless.csv").write_text("t,box.x\n0,0\n")
+    assert "timeless.csv:1" in refused(slide, "bad-table", "--run", "timeless.csv=push.jsonl", *parameter)
+    as_csv(slide, "good.csv")
+    refused(slide, "no-free-robot", "--run", "good.csv=push.jsonl", *parameter, "--fit-start", "bowl")
+    refused(slide, "bad-value", "--run", "good.csv=push.jsonl", *parameter, "--fit-time", "0")
+
+
 def test_a_value_at_its_bound_has_no_interval(slide):
     words = ["calibrate", "slide.sdf", "--run", "run.parquet=push.jsonl", "--parameter", f"mu={MU}@0.2..0.35", "--quiet"]
     told = json.loads(command(slide, *words, "--json"))["parameters"][0]

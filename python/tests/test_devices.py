@@ -103,6 +103,25 @@ def test_a_soccer_team_drives_robots_that_a_camera_sees_through_bad_packets(tmp_
         assert port["taken"] > 100 and port["stale"] > 10 and port["lost"] > 10 and port["damaged"] == 0
 
 
+def test_a_robot_that_falls_silent_alone_does_not_stop_the_others(tmp_path):
+    with stand_in("joints", "soccer.sdf", "--robot", "blue_0:0") as (lost, at_lost), \
+            stand_in("joints", "soccer.sdf", "--robot", "blue_1:0", "--camera", 0) as (field, at):
+        lines = ["--robot", "blue_0", "--connect", f"udp:127.0.0.1:{at_lost['robots']['blue_0']}", "--robot", "blue_1",
+                 "--connect", f"udp:127.0.0.1:{at['robots']['blue_1']}", "--camera", f"udp:127.0.0.1:{at['camera']}"]
+        words = ["stop-this", "stop-all", "stop-all"]
+        silence = [word for each in words for word in ("--on-silence", each)]
+        with running(*device(tmp_path, "roboss_soccer_blue", WORLDS / "soccer.sdf", *lines, *silence, "--duration", 4,
+                             "--give-up", 30)) as process:
+            await_driving(process)
+            lost.kill()
+            said = process.communicate(timeout=60)[1]
+            assert process.returncode == 0, said
+        assert summary(field)["blue_1"]["distance_m"] > 0.1     # it drove on
+    done = json.loads((tmp_path / "device.json").read_text())
+    assert done["losses"] >= 1 and done["failure"] is None
+    assert "[lost]" in said and "[unstopped]" in said
+
+
 def test_the_arm_moves_from_posture_to_posture_through_a_reboot(tmp_path):
     with stand_in("joints", "arm.sdf", "--robot", "arm:0", "--loss", 0.05, "--reboot-at", 2) as (arm, at):
         done = drive(tmp_path, "roboss_arm_postures", WORLDS / "arm.sdf", "--robot", "arm", "--connect",

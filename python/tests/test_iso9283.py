@@ -93,6 +93,40 @@ def test_speeds_along_a_path():
     assert repeatability == pytest.approx(3 * 0.1 / np.sqrt(2))
 
 
+def test_drift_is_the_change_of_accuracy_and_repeatability():
+    corners = np.array([[1, 0, 0], [-1, 0, 0], [0, 1, 0], [0, -1, 0]])
+    first, last = poses([0.003, 0, 0] + 0.001 * corners), poses([0, 0.005, 0] + 0.0004 * corners)
+    last[:, 3:] = turned(0.02, [0, 0, 1], DOWN)
+    drift = iso9283.pose_drift(first, last, poses([0, 0, 0])[0])
+    assert drift.accuracy == pytest.approx(0.002) and drift.repeatability == pytest.approx(0.0006)  # 3 to 5 mm, 1 to 0.4 mm
+    assert drift.accuracy_abc == pytest.approx([0, 0, 0.02], abs=1e-12)
+    assert drift.moved == pytest.approx(np.hypot(0.003, 0.005))
+
+
+def test_exchangeability_is_the_largest_distance_between_the_means_of_arms():
+    assert iso9283.exchangeability(np.array([[0, 0, 0], [3, 4, 0], [1, 0, 0]]) * 1e-3) == pytest.approx(5e-3)
+
+
+CORNER = np.array([1.0, 2, 3])
+
+
+def test_a_path_that_cuts_a_corner_by_an_arc_has_its_round_off_error():
+    angle, r = np.linspace(0, np.pi / 2, 9001), 0.01  # of an arc that touches both lines
+    arc = CORNER + np.column_stack([r * (np.sin(angle) - 1), r * (1 - np.cos(angle)), 0 * angle])
+    round_off, overshoot = iso9283.cornering(arc, CORNER, [1, 0, 0], [0, 1, 0])
+    assert round_off == pytest.approx(r * (np.sqrt(2) - 1), rel=1e-6) and overshoot == pytest.approx(0, abs=1e-12)
+
+
+def test_overshoot_is_counted_beyond_the_second_line_and_across_it():
+    path = CORNER + np.array([[-0.1, 0.02, 0], [0, 0, 0], [0.003, 0.001, 0.004], [0.001, 0.01, 0], [-0.02, 0.05, 0]])
+    round_off, overshoot = iso9283.cornering(path, CORNER, [2, 0, 0], [0, 3, 0])
+    assert round_off == 0 and overshoot == pytest.approx(0.005)  # not the 20 mm on the inner side
+    slanted = iso9283.cornering(path, CORNER, [1, -1, 0], [0, 1, 0])  # an acute corner has the same second line
+    assert slanted == pytest.approx((round_off, overshoot))
+    with pytest.raises(roboss.ArgumentError):
+        iso9283.cornering(path, CORNER, [1, 0, 0], [-1, 0, 0])
+
+
 def test_compliance_is_the_slope():
     forces = np.array([0.0, 10, 20])
     assert iso9283.compliance(forces, 2e-6 * forces) == pytest.approx(2e-6)
@@ -136,6 +170,36 @@ def test_poses_and_paths_are_found_in_a_recording():
     assert back.repeatability == pytest.approx(0.0004 * (8 / 9 + 3 * np.std([2 / 3, 4 / 3, 2 / 3], ddof=1)))
     (name, accuracy, repeatability), = condition.distances
     assert name == "P1 to P2" and accuracy == pytest.approx(0, abs=1e-12) and repeatability == pytest.approx(0, abs=1e-9)
+
+
+def test_drift_is_taken_between_the_first_and_the_last_visits():
+    time, measured, commanded = recorded(np.zeros(3), 0.0, cycles=6)
+    measured[3 * 200:, 1] += 0.002  # from the fourth cycle on
+    assert all(pose.drift is None for pose in analyse_arm(time, measured, commanded).poses)  # ten visits are not there
+    for pose in analyse_arm(time, measured, commanded, drift_visits=3).poses:
+        assert pose.drift.accuracy == pytest.approx(0.002) and pose.drift.repeatability == pytest.approx(0, abs=1e-12)
+
+
+def test_corners_are_found_where_the_commanded_path_turns_without_a_rest():
+    side = np.linspace(0, 0.4, 401)[1:, None]
+    along, across = side * [1.0, 0, 0], [0.4, 0, 0] + side * [0, 1.0, 0]
+    one = np.vstack([np.zeros((50, 3)), along, across, np.tile(across[-1], (50, 1))])
+    back = np.vstack([one, one[::-1]])
+    commanded = np.vstack([back, back, back])
+    late = np.vstack([np.tile(commanded[0], (10, 1)), commanded[:-10]])
+    late[:, 2] += 0.002  # so the corner is missed by 2 mm
+    corners = analyse_arm(np.arange(len(commanded)) * 0.01, poses(late), poses(commanded)).corners
+    assert [(corner.place.tolist(), corner.runs) for corner in corners] == [([0.4, 0, 0], 3)] * 2  # there and back
+    for corner in corners:
+        assert corner.round_off == pytest.approx(0.002) and corner.overshoot == pytest.approx(0, abs=1e-12)
+
+
+def test_arms_of_one_type_are_compared_at_the_poses_that_they_share():
+    from roboss.analysis.arm import exchangeability
+    arms = [analyse_arm(*recorded(np.array([x, 0, 0]), 0.0)) for x in (0.0, 0.001, 0.003)]
+    assert exchangeability(arms) == [("P1", pytest.approx(0.003)), ("P2", pytest.approx(0.003))]
+    with pytest.raises(roboss.ArgumentError):
+        exchangeability(arms[:1])
 
 
 def test_a_single_cycle_is_refused():

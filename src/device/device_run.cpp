@@ -29,7 +29,10 @@ DeviceRun::DeviceRun(std::shared_ptr<const Model> model, std::vector<ConnectedDe
     : model_(std::move(model)), program_(std::move(program)), o_(options) {
     for (ConnectedDevice& each : devices) {
         devices_.push_back({std::move(each.adapter), each.line->address(), each.robot});
-        connections_.push_back({std::move(each.line), false, kNever, {}});
+        const bool is_camera = !each.robot.valid();
+        const OnSilence chosen =
+            is_camera && each.on_silence == OnSilence::kStopThis ? OnSilence::kStopAll : each.on_silence;
+        connections_.push_back({std::move(each.line), false, kNever, {}, chosen, kNever});
     }
     client_ = std::make_unique<DeviceClient>(model_, devices_, o_.seed);
 }
@@ -42,14 +45,15 @@ void DeviceRun::advance(double now_s) {
     if (phase_ == Phase::kDriving) count_.driven_s += elapsed_s;
     if (stop_wanted_ && phase_ != Phase::kStopping) enter(Phase::kStopping, now_s);
 
-    const Device* silent = oldest(now_s);
+    watch_silence(now_s);
+    const Device* silent = waited_for(now_s);
     const double waited_s = now_s - entered_s_;
     switch (phase_) {
         case Phase::kConnecting:
         case Phase::kSilent:
             if (silent == nullptr) {
                 notices_.push_back(phase_ == Phase::kSilent
-                                       ? "all devices answer again after " + text_of(waited_s) + " [back]"
+                                       ? "the robots are driven again after " + text_of(waited_s) + " [back]"
                                        : "all devices answer; the program drives [driving]");
                 enter(Phase::kDriving, now_s);
             } else if (waited_s > o_.give_up_s) {
@@ -59,22 +63,16 @@ void DeviceRun::advance(double now_s) {
             }
             break;
         case Phase::kDriving:
-            if (silent != nullptr) {
-                ++count_.losses;
-                notices_.push_back(called(*model_, *silent) +
-                                   " is silent; the robots rest until it answers [lost]");
+            if (silent != nullptr)
                 enter(Phase::kSilent, now_s);
-            } else {
+            else
                 drive(now_s);
-            }
             break;
         case Phase::kStopping: {
-            const auto active = std::ranges::find_if(
-                devices_, [](const Device& d) { return d.robot.valid() && !d.adapter->at_rest(); });
-            if (active == devices_.end()) return enter(Phase::kOver, now_s);
-            if (waited_s < kFarewell_s) break;
-            notices_.push_back(called(*model_, *active) +
-                               " did not acknowledge that it stops: look whether it still moves [unstopped]");
+            const bool all_rest = std::ranges::all_of(
+                devices_, [](const Device& d) { return !d.robot.valid() || d.adapter->at_rest(); });
+            if (!all_rest && waited_s < kFarewell_s) break;
+            tell_unstopped(now_s);
             return enter(Phase::kOver, now_s);
         }
         case Phase::kOver:
@@ -116,17 +114,71 @@ void DeviceRun::note_trouble(std::size_t i, const Error& why) {
     notices_.push_back(why.text());
 }
 
-/// One whose readings are too old; null: there is none.
-const Device* DeviceRun::oldest(double now_s) const {
-    for (const Device& device : devices_)
-        if (now_s - device.adapter->readings().fresh_s > o_.max_age_s) return &device;
+bool DeviceRun::is_old(std::size_t i, double now_s) const {
+    return now_s - devices_[i].adapter->readings().fresh_s > o_.max_age_s;
+}
+
+/// One without which nothing is driven; null: there is none. All devices are waited for at the begin.
+const Device* DeviceRun::waited_for(double now_s) const {
+    for (std::size_t i = 0; i < devices_.size(); ++i)
+        if (is_old(i, now_s) &&
+            (phase_ == Phase::kConnecting || connections_[i].on_silence == OnSilence::kStopAll))
+            return &devices_[i];
     return nullptr;
+}
+
+/// Notes which devices became silent or answer again, once they were driven.
+void DeviceRun::watch_silence(double now_s) {
+    if (phase_ != Phase::kDriving && phase_ != Phase::kSilent) return;
+    for (std::size_t i = 0; i < devices_.size(); ++i) {
+        Connection& connection = connections_[i];
+        const bool old = is_old(i, now_s);
+        if (old == (connection.silent_s != kNever)) continue;
+        const std::string who = called(*model_, devices_[i]);
+        if (old) {
+            ++count_.losses;
+            connection.silent_s = now_s;
+            const char* const then[] = {"the robots rest until it answers",
+                                        "it rests until it answers; the others go on",
+                                        "the program goes on with its last readings"};
+            notices_.push_back(who + " is silent; " + then[static_cast<int>(connection.on_silence)] +
+                               " [lost]");
+        } else {
+            const double lost_s = now_s - std::exchange(connection.silent_s, kNever);
+            notices_.push_back(who + " answers again after " + text_of(lost_s) + " [back]");
+        }
+        if (connection.on_silence == OnSilence::kStopThis && phase_ == Phase::kDriving)
+            devices_[i].adapter->rest(old);
+    }
+}
+
+/// Names the robots that may still move at the end.
+void DeviceRun::tell_unstopped(double now_s) {
+    for (std::size_t i = 0; i < devices_.size(); ++i) {
+        const Device& device = devices_[i];
+        if (!device.robot.valid() || device.adapter->at_rest()) continue;
+        const std::string who = called(*model_, device);
+        const double fresh_s = device.adapter->readings().fresh_s;
+        if (fresh_s == kNever && begin_s_ == kNever)
+            notices_.push_back(who + " never answered; it got no order but to stop [unstopped]");
+        else if (is_old(i, now_s))
+            notices_.push_back(
+                who + " has been silent for " + text_of(now_s - fresh_s) +
+                " and did not acknowledge that it stops: look whether it still moves [unstopped]");
+        else
+            notices_.push_back(who +
+                               " did not acknowledge that it stops: look whether it still moves [unstopped]");
+    }
 }
 
 void DeviceRun::enter(Phase phase, double now_s) {
     phase_ = phase;
     entered_s_ = now_s;
-    for (const Device& device : devices_) device.adapter->rest(phase != Phase::kDriving);
+    for (std::size_t i = 0; i < devices_.size(); ++i) {
+        const Connection& connection = connections_[i];
+        const bool alone = connection.on_silence == OnSilence::kStopThis && connection.silent_s != kNever;
+        devices_[i].adapter->rest(phase != Phase::kDriving || alone);
+    }
     if (phase != Phase::kDriving) return;
     if (begin_s_ == kNever) begin_s_ = now_s;
     due_ = (reached(now_s) + o_.period - 1) / o_.period * o_.period;  // periods of silence are not late

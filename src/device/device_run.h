@@ -9,18 +9,26 @@
 
 namespace roboss {
 
+/// What happens while the readings of a device are too old.
+enum class OnSilence {
+    kStopAll,   ///< all robots rest, and control() is not called
+    kStopThis,  ///< this robot rests; the program drives the others. Of a camera: as kStopAll
+    kGoOn       ///< nothing: the program has its last readings
+};
+
 /// A device on its line.
 struct ConnectedDevice {
     std::unique_ptr<DeviceLine> line;
     std::unique_ptr<DeviceAdapter> adapter;
     RobotId robot;  ///< that it is; not valid: a camera
+    OnSilence on_silence = OnSilence::kStopAll;
 };
 
 struct DeviceRunOptions {
     std::string name = "device";  ///< of the program, for messages
     Tick period = 1;              ///< between two calls of control()
-    double max_age_s = 0.5;       ///< of readings: older ones stop the robots until there are new ones
-    double give_up_s = 10;        ///< without new readings the run ends
+    double max_age_s = 0.5;       ///< of readings: with older ones a device is silent
+    double give_up_s = 10;        ///< without first readings, or all robots resting for so long, it ends
     double duration_s = 0;        ///< of driving; 0: until stop()
     std::uint64_t seed = 0;       ///< Client::seed()
 };
@@ -31,7 +39,7 @@ class DeviceRun {
     enum class Phase {
         kConnecting,  ///< no readings of some device yet -> kDriving, or kStopping when it gives up
         kDriving,     ///< control() is called once a period -> kSilent, kStopping
-        kSilent,      ///< readings of some device are too old, all robots rest -> kDriving, kStopping
+        kSilent,      ///< a device of kStopAll is silent, all robots rest -> kDriving, kStopping
         kStopping,    ///< the robots are told to rest -> kOver, when all have said so or do not answer
         kOver         ///< nothing more is sent
     };
@@ -39,7 +47,7 @@ class DeviceRun {
     struct Count {
         std::uint64_t calls = 0,  ///< of control()
             late = 0;  ///< periods in which it was not called, because the one before took too long
-        std::uint64_t losses = 0;  ///< times in kSilent
+        std::uint64_t losses = 0;  ///< times that a device became silent while it was driven
         double driven_s = 0;       ///< in kDriving
     };
 
@@ -64,11 +72,16 @@ class DeviceRun {
         bool broken = false;
         double tried_s = kNever;
         std::string trouble;  // that was reported
+        OnSilence on_silence = OnSilence::kStopAll;
+        double silent_s = kNever;  // since when its readings are too old, once it was driven
     };
 
     void serve(std::size_t i, double now_s);
     void note_trouble(std::size_t i, const Error& why);
-    const Device* oldest(double now_s) const;
+    bool is_old(std::size_t i, double now_s) const;
+    const Device* waited_for(double now_s) const;
+    void watch_silence(double now_s);
+    void tell_unstopped(double now_s);
     void enter(Phase phase, double now_s);
     void drive(double now_s);
     Tick reached(double now_s) const;

@@ -31,7 +31,11 @@ class DeviceRunTest : public ::testing::Test {
         std::vector<ConnectedDevice> lines(1);
         auto fake = std::make_unique<FakeLine>(device);
         line = fake.get();
-        lines[0] = {std::move(fake), std::move(make_adapter("khepera", *model, robot)).value(), robot};
+        lines[0] = {std::move(fake), std::move(make_adapter("khepera", *model, robot)).value(), robot,
+                    on_silence};
+        if (other != nullptr)
+            lines.push_back({std::make_unique<FakeLine>(*other),
+                             std::move(make_adapter("khepera", *model, robot)).value(), robot});
         run =
             std::make_unique<DeviceRun>(model, std::move(lines), std::make_unique<Scripted>(script), options);
     }
@@ -43,6 +47,8 @@ class DeviceRunTest : public ::testing::Test {
     std::shared_ptr<const Model> model;
     FakeKhepera device;
     FakeLine* line = nullptr;
+    OnSilence on_silence = OnSilence::kStopAll;  // of `device`
+    FakeKhepera* other = nullptr;                // a second device; it stops all
     std::unique_ptr<DeviceRun> run;
     double now = 1000;
 };
@@ -84,6 +90,72 @@ TEST_F(DeviceRunTest, ASilentDeviceIsNotDrivenAndReturnsWithItsOrders) {
     EXPECT_EQ(run->count().late, 0u);
 }
 
+/// Whether a notice has this code.
+bool noticed(const std::vector<std::string>& notices, const std::string& code) {
+    return std::ranges::any_of(notices, [&](const std::string& n) { return n.ends_with("[" + code + "]"); });
+}
+
+TEST_F(DeviceRunTest, ASilentDeviceThatStopsAloneRestsWhileTheProgramGoesOn) {
+    int calls = 0;
+    on_silence = OnSilence::kStopThis;
+    begin([&](Client& client) { ++calls, drive(client); });
+    pass(1);
+    device.mute = true;
+    pass(1);
+    EXPECT_EQ(run->phase(), Phase::kDriving);
+    EXPECT_EQ(device.heard, "D,0,0");
+    EXPECT_EQ(run->count().losses, 1u);
+    const int before = calls;
+    pass(20);  // no time ends it
+    EXPECT_GE(calls, before + 390);
+    EXPECT_TRUE(noticed(run->take_notices(), "lost"));
+    device.mute = false;
+    pass(1);
+    EXPECT_EQ(device.speeds, (std::array<int, 2>{4, 5}));
+    EXPECT_TRUE(noticed(run->take_notices(), "back"));
+}
+
+TEST_F(DeviceRunTest, ASilentDeviceThatIsIgnoredIsDrivenOn) {
+    int calls = 0;
+    on_silence = OnSilence::kGoOn;
+    begin([&](Client& client) { ++calls, drive(client); });
+    pass(1);
+    device.mute = true;
+    const int before = calls;
+    pass(15);
+    EXPECT_EQ(run->phase(), Phase::kDriving);
+    EXPECT_GE(calls, before + 290);
+    EXPECT_EQ(device.heard, "D,4,5");
+    EXPECT_FALSE(run->failure());
+    run->stop();
+    pass(1);
+    EXPECT_EQ(run->phase(), Phase::kOver);
+    EXPECT_EQ(device.heard, "D,0,0");
+    EXPECT_TRUE(noticed(run->take_notices(), "unstopped"));
+}
+
+TEST_F(DeviceRunTest, OneOfTwoDevicesThatStopsAloneLeavesTheOtherDriving) {
+    FakeKhepera second;
+    on_silence = OnSilence::kStopThis;
+    other = &second;
+    begin(drive);
+    pass(1);
+    device.mute = true;
+    pass(1);
+    EXPECT_EQ(run->phase(), Phase::kDriving);
+    EXPECT_EQ(device.heard, "D,0,0");
+    second.mute = true;  // this one stops all
+    pass(1);
+    EXPECT_EQ(run->phase(), Phase::kSilent);
+    second.mute = false;
+    pass(1);
+    EXPECT_EQ(run->phase(), Phase::kDriving);
+    EXPECT_EQ(device.heard, "D,0,0");  // still silent
+    device.mute = false;
+    pass(1);
+    EXPECT_EQ(device.speeds, (std::array<int, 2>{4, 5}));
+}
+
 TEST_F(DeviceRunTest, ALineThatIsCutIsOpenedAgain) {
     begin(drive);
     pass(1);
@@ -105,6 +177,7 @@ TEST_F(DeviceRunTest, ADeviceThatNeverAnswersEndsTheRun) {
     EXPECT_EQ(run->phase(), Phase::kOver);
     EXPECT_EQ(run->failure()->code, "device-lost");
     EXPECT_EQ(run->count().calls, 0u);
+    EXPECT_TRUE(noticed(run->take_notices(), "unstopped"));
 }
 
 TEST_F(DeviceRunTest, AnExceptionStopsTheRobot) {

@@ -10,8 +10,9 @@ a world file to recorded runs. docs/analysis.md lists them with their sources. F
 package (pyarrow, mcap, matplotlib, scipy).
 """
 from .arm import Condition, analyse_arm
-from .recorder import record
+from .recorder import Recorded, record, record_file
 from .recording import Column, Recording, read, write
 from .variables import Variables
 
-__all__ = ["Column", "Condition", "Recording", "Variables", "analyse_arm", "read", "record", "write"]
+__all__ = ["Column", "Condition", "Recorded", "Recording", "Variables", "analyse_arm", "read", "record", "record_file",
+           "write"]

@@ -10,13 +10,14 @@ from ..errors import ArgumentError
 from .command import Parser, Progress
 from .recorder import is_journal, record
 from .record_command import add_common
-from .recording import SUFFIXES, Recording, read, write
+from .recording import READABLE, Recording, read, write
 
 _ARM = """Examples:
   roboss analyse arm worlds/arm.sdf --robot arm --link tool          the whole test, some minutes
   roboss analyse arm worlds/arm.sdf --cycles 5 --speeds 1 --loads 1 --keep test.parquet
   roboss analyse arm test.parquet                                    a recording, of this test or your own
   roboss analyse arm run.parquet --measured arm.tool.pose --commanded arm.tool.command
+  roboss analyse arm arm_1.parquet --exchange arm_2.parquet arm_3.parquet   exchangeability of arms of one type
 
 The test: a servo (PID and feed-forward, with encoders) drives the tool through the poses P1 to P5 of a cube, --cycles
 times for each load and speed. In a recording, test poses are where the commanded pose rests."""
@@ -41,6 +42,10 @@ def parser() -> Parser:
     arm.add_argument("--measured", metavar="VAR", help="of a recording: the attained poses (default: the *.pose with a *.command)")
     arm.add_argument("--commanded", metavar="VAR", help="of a recording: the commanded poses (default: the *.command)")
     arm.add_argument("--band", type=float, metavar="M", help="limit band of stabilisation (default: RP, at least 0.1 mm)")
+    arm.add_argument("--drift-visits", type=int, default=10, metavar="N",
+                     help="first and last visits to a pose that are compared for its drift (default: 10, as in the standard)")
+    arm.add_argument("--exchange", nargs="+", default=[], metavar="FILE",
+                     help="of a recording: recordings of other arms with the same program, for the exchangeability")
     arm.add_argument("--link", help="whose frame is measured (default: the last link)")
     arm.add_argument("--payload", type=float, default=2.0, metavar="KG", help="rated load (default: 2)")
     arm.add_argument("--loads", type=float, nargs="+", default=[0.1, 1.0], metavar="X", help="shares of it (default: 0.1 1)")
@@ -95,14 +100,16 @@ def run(options: Any) -> Any:
 
 
 def _arm(options: Any, progress: Progress) -> Any:
-    from .arm import analyse_arm
+    from .arm import analyse_arm, exchangeability
     from .reports import arm_report
-    if Path(options.source).suffix in SUFFIXES:
-        recording = read(options.source)
-        measured, commanded = _pose_names(recording, options)
-        conditions = [analyse_arm(part.time, part[measured], part[commanded], name=name, band=options.band)
-                      for name, part in _conditions(recording)]
-        return arm_report(f"Arm: {measured}", conditions, [("Recording", options.source)])
+    if Path(options.source).suffix in READABLE:
+        conditions, measured = _recorded_arm(options.source, options)
+        others = [_recorded_arm(other, options)[0] for other in options.exchange]
+        exchange = exchangeability([conditions[0], *(some[0] for some in others)]) if others else ()
+        facts = [("Recording", options.source)] + [("Other arm", other) for other in options.exchange]
+        return arm_report(f"Arm: {measured}", conditions, facts, exchange=exchange)
+    if options.exchange:
+        raise ArgumentError("--exchange with a world", "give a recording of each arm", "bad-value")
     from .arm_driver import ArmDriver, ArmTest
     load_options = {"ground": options.ground, "fixed_base": options.fixed_base}
     if options.cycles < 2 or options.servo_hz <= 0 or min(options.speeds) <= 0 or min(options.loads) < 0:
@@ -118,7 +125,8 @@ def _arm(options: Any, progress: Progress) -> Any:
     kept, conditions = [], []
     for name, recording in driver.recordings(lambda name, share: progress(f"{name}: {100 * share:.0f} %")):
         kept.append(recording)
-        conditions.append(analyse_arm(recording.time, recording[measured], recording[commanded], name=name, band=options.band))
+        conditions.append(analyse_arm(recording.time, recording[measured], recording[commanded], name=name, band=options.band,
+                                      drift_visits=options.drift_visits))
         progress.note(f"{name}: RP {1e3 * max(p.score.repeatability for p in conditions[-1].poses):.4f} mm")
     if options.keep:
         write(_joined(kept), options.keep)
@@ -133,6 +141,15 @@ def _arm(options: Any, progress: Progress) -> Any:
              ("Encoders", f"2^{test.encoder_bits} steps per turn, noise {test.encoder_noise:g} rad, seed {test.seed}")]
     return arm_report(f"Arm: {driver.robot} of {Path(options.source).name}", conditions, facts,
                       driver.stiffness(force) if force > 0 else None)
+
+
+def _recorded_arm(path: str, options: Any) -> tuple[list[Any], str]:
+    """Figures of each condition of a recording, and the name of the measured poses."""
+    from .arm import analyse_arm
+    recording = read(path)
+    measured, commanded = _pose_names(recording, options)
+    return [analyse_arm(part.time, part[measured], part[commanded], name=name, band=options.band, drift_visits=options.drift_visits)
+            for name, part in _conditions(recording)], measured
 
 
 def _pose_names(recording: Recording, options: Any) -> tuple[str, str]:

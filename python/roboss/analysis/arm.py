@@ -6,7 +6,7 @@ path. Equal poses and paths are taken together.
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import Optional
+from typing import Optional, Sequence
 
 import numpy as np
 
@@ -16,6 +16,7 @@ from . import iso9283
 
 _PLACES = 6  # decimals, m, to which commanded poses are the same
 _PATH_POINTS = 50
+_LEAST_CORNER = np.cos(np.radians(20))  # of the angle by which a commanded path turns
 _REST_SHARE = 0.2  # end of a rest over which the attained pose is averaged
 
 
@@ -30,6 +31,7 @@ class PoseResult:
         score: AP and RP.
         settling_time: largest stabilisation time, s.
         overshoot: largest, m.
+        drift: from the first visits to the last ones; None: too few visits.
     """
 
     name: str
@@ -37,6 +39,17 @@ class PoseResult:
     attained: Floats
     score: iso9283.PoseScore
     settling_time: float
+    overshoot: float
+    drift: Optional[iso9283.PoseDrift] = None
+
+
+@dataclass(frozen=True)
+class CornerResult:
+    """Figures of one corner of the commanded path that is passed without a rest: its place (m), runs, CR and CO (m)."""
+
+    place: Floats
+    runs: int
+    round_off: float
     overshoot: float
 
 
@@ -59,6 +72,7 @@ class Condition:
         name: "load 2 kg, speed 100 %", or "" if the recording has one condition.
         poses, paths: figures of each.
         distances: (name, AD, RD) of pairs of poses, m.
+        corners: figures of each corner.
         arrivals: (time, distances from the end) of the first arrival at each pose, for pictures: s, m.
     """
 
@@ -66,6 +80,7 @@ class Condition:
     poses: list[PoseResult]
     paths: list[PathResult]
     distances: list[tuple[str, float, float]]
+    corners: list[CornerResult] = field(default_factory=list)
     arrivals: dict[str, tuple[Floats, Floats]] = field(default_factory=dict)
 
 
@@ -77,7 +92,7 @@ class _Rest:
 
 
 def analyse_arm(time: Floats, measured: Floats, commanded: Floats, *, name: str = "", band: Optional[float] = None,
-                least_rest: float = 0.1) -> Condition:
+                least_rest: float = 0.1, drift_visits: int = 10) -> Condition:
     """Figures of one recording.
 
     Args:
@@ -86,6 +101,7 @@ def analyse_arm(time: Floats, measured: Floats, commanded: Floats, *, name: str 
         name: of the condition.
         band: limit band of stabilisation and overshoot, m; None: the repeatability at the pose, at least 0.1 mm.
         least_rest: shortest rest of the commanded pose that makes it a test pose, s.
+        drift_visits: how many visits to a pose at the begin, and how many at the end, are compared for its drift.
 
     Raises:
         ArgumentError: no pose is visited twice (code "too-few-cycles").
@@ -102,14 +118,65 @@ def analyse_arm(time: Floats, measured: Floats, commanded: Floats, *, name: str 
         settled = [iso9283.settling(time[r.begin:r.end], measured[r.begin:r.end, :3], pose[:3], limit)
                    for r, pose in zip(some, attained)]
         poses.append(PoseResult(f"P{number + 1}", targets[number], attained, score, max(s for s, _ in settled),
-                                max(o for _, o in settled)))
+                                max(o for _, o in settled), _drift(attained, targets[number], drift_visits)))
         rest = some[-1]
         arrivals[poses[-1].name] = (time[rest.begin:rest.end] - time[rest.begin],
                                     np.linalg.norm(measured[rest.begin:rest.end, :3] - attained[-1, :3], axis=1))
     if not poses:
         raise ArgumentError(f"{len(rests)} rests of the commanded pose, and no pose is visited twice",
                             f"record several cycles that rest for {least_rest} s or more at each pose", "too-few-cycles")
-    return Condition(name, poses, _paths(time, measured, commanded, rests), _distances(poses), arrivals)
+    return Condition(name, poses, _paths(time, measured, commanded, rests), _distances(poses),
+                     _corners(measured, commanded, rests), arrivals)
+
+
+def exchangeability(conditions: Sequence[Condition]) -> list[tuple[str, float]]:
+    """E at each test pose that all arms were commanded to, m: conditions are recordings of several arms of one type.
+
+    Raises:
+        ArgumentError: there are no two arms, or they have no pose in common (code "no-common-pose").
+    """
+    found = []
+    for pose in conditions[0].poses:
+        same = [[other for other in condition.poses if np.allclose(other.commanded, pose.commanded, atol=10.0**-_PLACES)]
+                for condition in conditions]
+        if len(conditions) > 1 and all(same):
+            means = np.array([some[0].attained[:, :3].mean(axis=0) for some in same])
+            found.append((pose.name, iso9283.exchangeability(means)))
+    if not found:
+        raise ArgumentError(f"{len(conditions)} recordings without a commanded pose that all of them have",
+                            "record the same program with each arm, in the same frame", "no-common-pose")
+    return found
+
+
+def _drift(attained: Floats, commanded: Floats, visits: int) -> Optional[iso9283.PoseDrift]:
+    """Between the first and the last visits, if there are as many."""
+    if visits < 2 or len(attained) < 2 * visits:
+        return None
+    return iso9283.pose_drift(attained[:visits], attained[-visits:], commanded)
+
+
+def _corners(measured: Floats, commanded: Floats, rests: list[_Rest]) -> list[CornerResult]:
+    """Figures of the corners of the commanded paths between rests; the worst of their runs."""
+    runs: dict[tuple, list[tuple[float, float]]] = {}
+    for before, after in zip(rests[:-1], rests[1:]):
+        path = commanded[before.end - 1:after.begin + 1, :3]
+        path = path[np.concatenate([[True], np.any(np.diff(path, axis=0) != 0, axis=1)])]
+        steps = np.diff(path, axis=0)
+        steps /= np.linalg.norm(steps, axis=1, keepdims=True)
+        turns = np.flatnonzero(np.sum(steps[:-1] * steps[1:], axis=1) < _LEAST_CORNER) + 1
+        ends = path[np.concatenate([[0], turns, [len(path) - 1]])]
+        for number, k in enumerate(turns):
+            reach = min(np.linalg.norm(ends[number] - path[k]), np.linalg.norm(ends[number + 2] - path[k])) / 2
+            near = _within(measured[before.end - 1:after.end, :3], path[k], reach)
+            key = tuple(np.round([*path[k], *steps[k - 1], *steps[k]], _PLACES - 2) + 0.0)
+            runs.setdefault(key, []).append(iso9283.cornering(near, path[k], steps[k - 1], steps[k]))
+    return [CornerResult(np.array(key[:3]), len(some), *(max(column) for column in zip(*some))) for key, some in runs.items()]
+
+
+def _within(attained: Floats, corner: Floats, reach: float) -> Floats:
+    """Those points of an attained path that are within a distance from a corner; at least the nearest one."""
+    distances = np.linalg.norm(attained - corner, axis=1)
+    return attained[distances <= max(reach, distances.min())]
 
 
 def _rests(time: Floats, commanded: Floats, least: float) -> tuple[list[_Rest], list[Floats]]:

@@ -21,10 +21,12 @@ A parameter is NAME=PATH[,PATH ...][@LOW..HIGH]: elements of the file by Element
 the end names an attribute. All of them get the same number. Without bounds: a tenth to ten times the value in the file.
 Elements of included files are not searched.
 
-A run is RECORDING[=ORDERS]: a table of `roboss record`, or any Parquet file with a column 'time' (s) and columns named
+A run is RECORDING[=ORDERS]: a table of `roboss record`, or any Parquet or CSV file with a column 'time' (s) and columns named
 as those of `roboss record` (robot.x, robot.yaw, robot.joint.position ...), and the orders that the robot had. The robot
-starts as the file says. Use short runs in which one or two parameters dominate. Empty cells are left out."""
-_RUN = re.compile(r"(.*?\.(?:parquet|mcap))(?:=(.+))?")
+starts as the file says; --fit-start finds where it stood, --fit-time when the run began on the tracker's clock:
+  roboss calibrate robot.sdf --run straight.csv=straight.jsonl --fit-start robot --fit-time 0.5 --parameter ...
+Use short runs in which one or two parameters dominate. Empty cells are left out."""
+_RUN = re.compile(r"(.*?\.(?:parquet|mcap|csv))(?:=(.+))?")
 _PARAMETER = re.compile(r"([^=]+)=(.+?)(?:@([^]/'\"]+)\.\.([^]/'\"]+))?")
 
 
@@ -36,6 +38,9 @@ def parser() -> Parser:
     result.add_argument("--parameter", action="append", required=True, metavar="NAME=PATH", help="a number to find (may be repeated)")
     result.add_argument("--compare", nargs="+", metavar="VARIABLE",
                         help="patterns of what is compared (default: *.x *.y *.yaw *.*.position)")
+    result.add_argument("--fit-start", nargs="+", default=[], metavar="ROBOT",
+                        help="find x, y (within 1 m of the file's) and yaw (1 rad) of its start, for each run")
+    result.add_argument("--fit-time", type=float, metavar="S", help="find when each run began on the recording's clock, at most S off")
     result.add_argument("--client", action="append", default=[], metavar="LIB", help="a control program, as of `roboss run`")
     result.add_argument("--ground", action="store_true", help="add a ground, for a URDF")
     result.add_argument("--fixed-base", action="append", default=[], metavar="NAME", help="weld this model to the world, for a URDF")
@@ -50,6 +55,8 @@ def run(options: Any) -> Any:
     from .calibration import PATTERNS, Parameter, TestRun, calibrate
     if options.output and not Path(options.output).absolute().parent.is_dir():
         raise ArgumentError(f"there is no folder for '{options.output}'", "make it, or choose another one", "no-file")
+    if options.fit_time is not None and not options.fit_time > 0:
+        raise ArgumentError(f"--fit-time {options.fit_time:g}", "give the largest offset, in s, above 0", "bad-value")
     parameters = []
     for text in options.parameter:
         found = _PARAMETER.fullmatch(text)
@@ -65,11 +72,12 @@ def run(options: Any) -> Any:
     for text in options.run:
         found = _RUN.fullmatch(text)
         if not found:
-            raise ArgumentError(f"a run '{text}'", "write FILE.parquet or FILE.parquet=ORDERS.jsonl", "bad-value")
+            raise ArgumentError(f"a run '{text}'", "write FILE.parquet or FILE.parquet=ORDERS.jsonl (.mcap and .csv, too)", "bad-value")
         runs.append(TestRun(read(_existing(found[1])), found[2] and _existing(found[2]), found[1]))
     loading = {"ground": options.ground, "fixed_base": options.fixed_base, "dt": options.dt, "search_paths": options.path}
     result = calibrate(options.world, parameters, runs, compare=options.compare or PATTERNS,
                        clients=[_existing(client) for client in options.client], options=loading,
+                       fit_start=options.fit_start, fit_time=options.fit_time,
                        progress=Progress("calibrate", options.quiet))
     if options.output:
         with open(options.output, "w", encoding="utf-8") as file:

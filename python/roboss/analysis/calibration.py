@@ -19,12 +19,14 @@ from numpy.typing import NDArray
 from ..errors import ArgumentError, RobossError
 from ..robots import Floats
 from ..simulation import Simulation
+from .offsets import Offset, Starts, offsets_of, scaled, unscaled
 from .recorder import journal_of_run, opened_world, record
 from .recording import Column, Recording, matches
 from .variables import Variables
 
 _STEP = 1e-3  # of finite differences, relative: friction and impacts are not smooth on smaller scales
 _ALIKE = 1e-6  # ratio of the singular values of the Jacobian below which parameters are not identifiable
+_FINEST = 1e-6  # m, rad: a unit that is left with less counts as if it were left with this
 _SPARE = 0.1   # s that a run is simulated beyond its recording
 PATTERNS = ("*.x", "*.y", "*.yaw", "*.*.position")
 
@@ -151,23 +153,28 @@ class WorldFile:
 
 def calibrate(world: Union[str, os.PathLike], parameters: Sequence[Parameter], runs: Sequence[TestRun], *,
               compare: Union[str, Iterable[str]] = PATTERNS, clients: Sequence[str] = (),
-              options: Optional[Mapping[str, Any]] = None, progress: Optional[Callable[[str], None]] = None) -> Calibration:
+              options: Optional[Mapping[str, Any]] = None, fit_start: Sequence[str] = (), fit_time: Optional[float] = None,
+              progress: Optional[Callable[[str], None]] = None) -> Calibration:
     """Fits numbers of a world file to recorded runs.
 
     Args:
-        world: path of the file; its robots start where the recorded ones did.
+        world: path of the file; its robots start where the recorded ones did, but for `fit_start`.
         parameters: which numbers.
         runs: recordings with the orders of each; times start with the run.
         compare: patterns of the variables that are compared; columns that the world does not have do not count, and
             neither do samples that are not finite.
         clients: control programs that drive the robots, besides the orders.
         options: of load(), for a URDF: ground, fixed_base, dt, search_paths.
+        fit_start: robots whose start x, y (at most 1 m off) and yaw (1 rad) are found, too, for each run.
+        fit_time: if given, the time of the recording's clock at which the run began is found, too, for each run; s, at most
+            this much in either direction.
         progress: is called with a line after each simulation.
 
     Raises:
         ArgumentError: nothing can be compared (code "nothing-to-compare"), times do not ascend from 0 ("bad-times"),
             units differ ("bad-unit"), a parameter has no influence ("no-influence"), two have the same ("same-influence"),
-            a number is not there ("no-number") or not between its bounds ("bad-bounds").
+            a number is not there ("no-number") or not between its bounds ("bad-bounds"), a robot of
+            fit_start is not there or fixed ("no-free-robot").
         RobossError: a run failed.
     """
     from scipy import optimize, stats
@@ -175,15 +182,21 @@ def calibrate(world: Union[str, os.PathLike], parameters: Sequence[Parameter], r
         raise ArgumentError("no parameter, or no recorded run", "give one of each, or more", "nothing-to-compare")
     file = WorldFile(world, parameters)
     low, high = _bounds(parameters, file.start)
-    fit = _Comparison(file, runs, (compare,) if isinstance(compare, str) else tuple(compare), clients, options or {}, progress)
-    before = fit.differences(file.start)
-    spread, values, found, weights = _spread(fit.units, before), file.start, None, None
+    offsets = offsets_of(len(runs), fit_start, fit_time)
+    most = np.array([offset.most for offset in offsets])
+    start = np.concatenate([file.start, scaled(0 * most)])
+    low, high = np.concatenate([low, scaled(-most)]), np.concatenate([high, scaled(most)])
+    fit = _Comparison(file, runs, (compare,) if isinstance(compare, str) else tuple(compare), clients, options or {}, offsets, progress)
+    before = fit.differences(start)
+    spread, values, found, weights = _spread(fit.units, before), start, None, None
     for _ in range(2):  # the second time by what the first left: each unit counts by its own noise
-        weights = np.array([1 / spread[unit] for unit in fit.units])
-        found = optimize.least_squares(lambda x: fit.differences(x) * weights, values, bounds=(low, high), x_scale=np.abs(file.start),
+        weights = np.array([1 / max(spread[unit], _FINEST) for unit in fit.units])
+        found = optimize.least_squares(lambda x: fit.differences(x) * weights, values, bounds=(low, high), x_scale=np.abs(start),
                                        diff_step=_STEP, xtol=1e-5, ftol=1e-8, gtol=1e-10, max_nfev=60)
         values, spread = found.x, _spread(fit.units, found.fun / weights)
-    _check_influence([parameter.name for parameter in parameters], found.jac * values, any(run.orders for run in runs))
+    names = [parameter.name for parameter in parameters] + [offset.name(runs[offset.run].name) for offset in offsets]
+    _check_influence(names, found.jac * np.concatenate([values[:len(parameters)], np.ones(len(offsets))]),
+                     any(run.orders for run in runs))
     at_bound = found.active_mask != 0
     freedom = max(1, len(found.fun) - len(values))
     covariance = np.linalg.inv(found.jac.T @ found.jac) * (found.fun @ found.fun) / freedom
@@ -191,9 +204,14 @@ def calibrate(world: Union[str, os.PathLike], parameters: Sequence[Parameter], r
     half = np.where(at_bound, np.nan, stats.t.ppf(0.975, freedom) * deviation)
     with np.errstate(invalid="ignore", divide="ignore"):
         correlation = covariance / np.outer(deviation, deviation)
-    return Calibration(tuple(parameter.name for parameter in parameters), file.start, values, values - half, values + half,
-                       at_bound, correlation, fit.compared, spread, _spread(fit.units, before), fit.simulations,
-                       bool(found.success), file.text(values))
+    start, centre, lowest, highest = (_in_units(x, len(parameters)) for x in (start, values, values - half, values + half))
+    return Calibration(tuple(names), start, centre, lowest, highest, at_bound, correlation, fit.compared, spread,
+                       _spread(fit.units, before), fit.simulations, bool(found.success), file.text(values[:len(parameters)]))
+
+
+def _in_units(values: Floats, parameters: int) -> Floats:
+    """Values of the optimiser as numbers of the file, and as offsets."""
+    return np.concatenate([values[:parameters], unscaled(values[parameters:])])
 
 
 def _check_influence(names: Sequence[str], jacobian: Floats, with_orders: bool) -> None:
@@ -216,11 +234,14 @@ class _Comparison:
     """Recorded against simulated values, at the recorded times."""
 
     def __init__(self, file: WorldFile, runs: Sequence[TestRun], patterns: Sequence[str], clients: Sequence[str],
-                 options: Mapping[str, Any], progress: Optional[Callable[[str], None]]):
+                 options: Mapping[str, Any], offsets: Sequence[Offset], progress: Optional[Callable[[str], None]]):
         self._file, self._runs, self._clients, self._options, self._progress = file, runs, clients, options, progress
+        self._offsets = offsets
         self.simulations = 0
         self._known: dict[tuple[float, ...], Floats] = {}
-        there = {column.name: column for column in Variables(Simulation(opened_world(file.path, **options))).columns}
+        sim = Simulation(opened_world(file.path, **options))
+        self._starts = Starts(sim, list(dict.fromkeys(offset.robot for offset in offsets if offset.robot)))
+        there = {column.name: column for column in Variables(sim).columns}
         self._columns = [[column for column in run.recording.columns
                           if column.name in there and any(matches(pattern, column) for pattern in patterns)] for run in runs]
         self._finite = [[np.isfinite(run.recording[column.name]) for column in columns] for run, columns in zip(runs, self._columns)]
@@ -236,7 +257,8 @@ class _Comparison:
         if key not in self._known:
             self.simulations += 1
             if self._progress:
-                self._progress(f"simulation {self.simulations}: " + ", ".join(f"{value:.5g}" for value in values))
+                shown = _in_units(values, len(values) - len(self._offsets))
+                self._progress(f"simulation {self.simulations}: " + ", ".join(f"{value:.5g}" for value in shown))
             self._known[key] = np.concatenate(list(self._rows(values)))
         return self._known[key]
 
@@ -244,19 +266,24 @@ class _Comparison:
         with tempfile.TemporaryDirectory(prefix="roboss_calibrate_") as folder, \
                 tempfile.NamedTemporaryFile("w", dir=self._file.path.parent, prefix=".calibrate_", suffix=self._file.path.suffix,
                                             encoding="utf-8") as world:  # beside the file, for paths in it are relative
-            world.write(self._file.text(values))
+            numbers = len(values) - len(self._offsets)
+            shifts = list(zip(self._offsets, unscaled(values[numbers:]).tolist()))
+            world.write(self._file.text(values[:numbers]))
             world.flush()
             for number, (run, columns, finite) in enumerate(zip(self._runs, self._columns, self._finite)):
                 at = Path(folder) / str(number)
                 at.mkdir()
+                own = [(offset, value) for offset, value in shifts if offset.run == number]
+                begin = sum(value for offset, value in own if offset.kind == "time")
+                end = max(float(run.recording.time[-1]) - begin, 0.0) + _SPARE
                 try:
-                    journal = journal_of_run(world.name, float(run.recording.time[-1]) + _SPARE, at, orders=run.orders,
+                    journal = journal_of_run(world.name, end, at, orders=self._starts.orders(own, run.orders, at),
                                              clients=self._clients, options=self._options)
                 except RobossError as error:
                     raise RobossError(error.message.replace(world.name, str(self._file.path)), error.remedy, error.code) from None
                 copy = record(journal, sorted({column.variable for column in columns}), every=0.0)
                 for column, rows in zip(columns, finite):
-                    yield _difference(run.recording, copy, column.name)[rows]
+                    yield _difference(run.recording, copy, column.name, begin, any(offset.robot for offset, _ in own))[rows]
 
 
 def _check_run(run: TestRun, columns: Sequence[Column], there: Mapping[str, Column], patterns: Sequence[str]) -> None:
@@ -280,12 +307,15 @@ def _check_run(run: TestRun, columns: Sequence[Column], there: Mapping[str, Colu
                                 "convert it", "bad-unit")
 
 
-def _difference(recorded: Recording, simulated: Recording, name: str) -> Floats:
+def _difference(recorded: Recording, simulated: Recording, name: str, begin: float, moved: bool) -> Floats:
+    """Recorded minus simulated; the run began at this time of the recording's clock, s."""
     turns = name.endswith(".yaw")
-    values = np.unwrap(simulated[name]) if turns else simulated[name]
+    values = np.unwrap(simulated[name]) if turns else simulated[name].copy()
+    if moved and len(values) > 2:
+        values[0] = 2 * values[1] - values[2]  # orders of time 0, which put it elsewhere, show in the next state only
     if not np.isfinite(values).all():
         raise RobossError(f"'{name}' is not finite in the simulation", "", "not-finite")
-    difference = recorded[name] - np.interp(recorded.time, simulated.time, values)
+    difference = recorded[name] - np.interp(recorded.time - begin, simulated.time, values)
     return (difference + np.pi) % (2 * np.pi) - np.pi if turns else difference
 
 

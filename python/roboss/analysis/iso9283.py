@@ -71,6 +71,67 @@ def direction_variation(barycentres: Floats) -> float:
     return float(np.linalg.norm(barycentres[:, None] - barycentres[None], axis=2).max())
 
 
+@dataclass(frozen=True)
+class PoseDrift:
+    """Drift of pose characteristics between two sets of visits to a pose, at the begin and at the end of a time.
+
+    Attributes:
+        accuracy: dAP, m: how much AP changed.
+        repeatability: dRP, m: how much RP changed.
+        accuracy_abc, repeatability_abc: (3,), rad: how much AP abc and RP abc changed.
+        moved: m: distance between the two mean positions, which AP may hide. Not a figure of the standard.
+    """
+
+    accuracy: float
+    repeatability: float
+    accuracy_abc: Floats
+    repeatability_abc: Floats
+    moved: float
+
+
+def pose_drift(first: Floats, last: Floats, commanded: Floats) -> PoseDrift:
+    """dAP and dRP (7.6): |AP(T) - AP(0)| and |RP(T) - RP(0)| of attained poses (n, 7) at the begin and at the end, for one
+    commanded pose (7,). The standard takes ten visits for each, over eight hours."""
+    begin, end = pose_score(first, commanded), pose_score(last, commanded)
+    return PoseDrift(abs(end.accuracy - begin.accuracy), abs(end.repeatability - begin.repeatability),
+                     np.abs(end.accuracy_abc - begin.accuracy_abc), np.abs(end.repeatability_abc - begin.repeatability_abc),
+                     float(np.linalg.norm(end.accuracy_xyz - begin.accuracy_xyz)))
+
+
+def exchangeability(barycentres: Floats) -> float:
+    """Exchangeability E (7.7): the largest distance between the mean positions (k, 3) that k robots of the same type attained
+    at one commanded pose, with the same program and mounting, m. The standard takes five robots."""
+    return direction_variation(barycentres)
+
+
+def cornering(path: Floats, corner: Floats, before: Floats, after: Floats) -> tuple[float, float]:
+    """Cornering round-off error CR and overshoot CO (8.5) of one run along a path with a corner, m.
+
+    Args:
+        path: (T, 3), m: attained, from the straight line before the corner to that behind it.
+        corner: (3,), m.
+        before, after: (3,): commanded directions on the lines before and behind the corner, of any length.
+
+    CR is the least distance of the path from the corner. CO is the largest distance from the second line of those points that
+    are beyond it, as seen from the first line; 0 if none is. With the unit vector z along the second line, and y the part of
+    the first direction that is normal to it, p is beyond if (p - corner) . y > 0. The standard takes the worst of three runs.
+
+    Raises:
+        ArgumentError: the directions are parallel (code "no-corner").
+    """
+    _need("points of a path", path, 3, 1)
+    z = np.asarray(after, dtype=float) / np.linalg.norm(after)
+    y = np.asarray(before, dtype=float) / np.linalg.norm(before)
+    y -= (y @ z) * z
+    if not np.linalg.norm(y) > 1e-9:
+        raise ArgumentError("a corner between parallel lines", "give the directions of two lines that meet at an angle",
+                            "no-corner")
+    offset = path - corner
+    beyond = offset[offset @ y > 0]
+    across = beyond - np.outer(beyond @ z, z)
+    return float(np.linalg.norm(offset, axis=1).min()), float(np.linalg.norm(across, axis=1).max(initial=0.0))
+
+
 def settling(time: Floats, position: Floats, final: Floats, band: float) -> tuple[float, float]:
     """Pose stabilisation time (7.4), s, and overshoot (7.5), m, of one arrival.
 

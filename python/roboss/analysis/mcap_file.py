@@ -1,54 +1,86 @@
 """Recordings as MCAP: a channel for each variable with JSON messages and their JSON Schema, so Foxglove shows them.
 
-Poses are messages of foxglove.PoseInFrame, which 3D panels draw. The facts of a recording are the metadata "roboss".
+Poses are messages of foxglove.PoseInFrame, which 3D panels draw, images those of foxglove.RawImage. The facts of a
+recording are the metadata "roboss".
 """
 from __future__ import annotations
 
+import base64
 import json
 import os
-from typing import Any, Union
+from typing import Any, Mapping, Sequence, Union
 
 import numpy as np
 from mcap.reader import make_reader
 from mcap.writer import CompressionType, Writer
 
+from ..robots import Floats
+from .messages import MessageVariable
 from .recording import Column, Recording
 
 _POSE = (("pose", "position", "x"), ("pose", "position", "y"), ("pose", "position", "z"), ("pose", "orientation", "x"),
          ("pose", "orientation", "y"), ("pose", "orientation", "z"), ("pose", "orientation", "w"))
-_NUMBER = {"type": "number"}
+_NUMBER, _WHOLE, _TEXT = {"type": "number"}, {"type": "integer"}, {"type": "string"}
+_VECTOR = {"type": "object", "properties": {axis: _NUMBER for axis in "xyz"}}
+_STAMP = {"type": "object", "title": "time", "properties": {"sec": _WHOLE, "nsec": _WHOLE}}
+#: JSON Schemas of the types of fields (messages.Layout).
+_TYPES: dict[str, dict[str, Any]] = {
+    "text": _TEXT, "whole": _WHOLE, "number": _NUMBER, "vector": _VECTOR,
+    "bytes": {"type": "string", "contentEncoding": "base64"}, "texts": {"type": "array", "items": _TEXT},
+    "numbers": {"type": "array", "items": _NUMBER}, "rows": {"type": "array", "items": {"type": "array", "items": _NUMBER}}}
 
 
-def write_mcap(recording: Recording, path: Union[str, os.PathLike]) -> None:
-    """Writes the recording."""
-    with open(path, "wb") as stream:
-        writer = Writer(stream, compression=CompressionType.ZSTD)
-        writer.start(profile="", library="roboss")
-        writer.add_metadata("roboss", {"facts": json.dumps(recording.facts)})
-        channels = [_Channel(writer, recording, variable) for variable in recording.variables]
-        for row, time in enumerate(recording.time):
-            stamp = int(round(float(time) * 1e9))
-            for channel in channels:
-                writer.add_message(channel.id, stamp, channel.message(recording.values[row], stamp), stamp, row)
-        writer.finish()
+class McapWriter:
+    """Writes samples to a file as they come; only the last megabyte is in memory. A context."""
+
+    def __init__(self, path: Union[str, os.PathLike], columns: Sequence[Column], facts: Mapping[str, Any],
+                 messages: Sequence[MessageVariable] = ()):
+        self._stream = open(path, "wb")
+        self._writer = Writer(self._stream, compression=CompressionType.ZSTD)
+        self._writer.start(profile="", library="roboss")
+        self._writer.add_metadata("roboss", {"facts": json.dumps(facts)})
+        numbers: dict[str, list[int]] = {}
+        for number, column in enumerate(columns):
+            numbers.setdefault(column.variable, []).append(number)
+        self._channels = [_Channel(self._writer, columns, *item) for item in numbers.items()]
+        self._message_channels = [_MessageChannel(self._writer, variable) for variable in messages]
+        self._row = 0
+
+    def add(self, time: float, values: Floats, messages: Sequence[Any] = ()) -> None:
+        """Writes a sample: the values of the columns, and those of the messages."""
+        stamp = int(round(time * 1e9))
+        for channel in self._channels:
+            self._writer.add_message(channel.id, stamp, channel.message(values, stamp), stamp, self._row)
+        for message_channel, value in zip(self._message_channels, messages):
+            self._writer.add_message(message_channel.id, stamp, message_channel.message(value, stamp), stamp, self._row)
+        self._row += 1
+
+    def __enter__(self) -> McapWriter:
+        return self
+
+    def __exit__(self, *_: Any) -> None:
+        """Ends the file: also after an error it has all samples so far."""
+        self._writer.finish()
+        self._stream.close()
 
 
 def read_mcap(path: Union[str, os.PathLike]) -> Recording:
-    """Reads what write_mcap wrote. Raises ValueError if the channels have messages at different times."""
+    """Reads the numbers of what McapWriter wrote. Raises ValueError if the channels have messages at different times."""
     with open(path, "rb") as stream:
         reader = make_reader(stream)
         channels = {number: channel for number, channel in reader.get_summary().channels.items()
                     if "roboss" in channel.metadata}
+        if not channels:
+            raise ValueError("it has no channels with numbers of RoBOSS")
         facts = next((json.loads(entry.metadata["facts"]) for entry in reader.iter_metadata() if entry.name == "roboss"), {})
         rows: dict[int, list[list[float]]] = {number: [] for number in channels}
         places = {number: json.loads(channel.metadata["roboss"]) for number, channel in channels.items()}
         times: dict[int, None] = {}
-        for _, channel, message in reader.iter_messages():
-            if channel.id in channels:
-                times[message.log_time] = None
-                data = json.loads(message.data)
-                rows[channel.id].append([_at(data, place["path"]) for place in places[channel.id]])
-    if any(len(values) != len(times) for values in rows.values()) or not channels:
+        for _, channel, message in reader.iter_messages([channel.topic for channel in channels.values()]):
+            times[message.log_time] = None
+            data = json.loads(message.data)
+            rows[channel.id].append([_at(data, place["path"]) for place in places[channel.id]])
+    if any(len(values) != len(times) for values in rows.values()):
         raise ValueError("its channels are not those of a recording of RoBOSS")
     columns = [Column(place["name"], channel.metadata["variable"], place["unit"], place["frame"])
                for number, channel in channels.items() for place in places[number]]
@@ -59,9 +91,9 @@ def read_mcap(path: Union[str, os.PathLike]) -> Recording:
 class _Channel:
     """A variable's channel, and its columns."""
 
-    def __init__(self, writer: Writer, recording: Recording, variable: str):
-        self.numbers = [n for n, column in enumerate(recording.columns) if column.variable == variable]
-        columns = [recording.columns[n] for n in self.numbers]
+    def __init__(self, writer: Writer, all_columns: Sequence[Column], variable: str, numbers: list[int]):
+        self.numbers = numbers
+        columns = [all_columns[n] for n in numbers]
         self.frame = columns[0].frame or "world"
         parts = [column.name[len(variable) + 1:] or "value" for column in columns]
         self.is_pose = parts == ["x", "y", "z", "qx", "qy", "qz", "qw"]
@@ -69,33 +101,69 @@ class _Channel:
         name = "foxglove.PoseInFrame" if self.is_pose else "roboss." + variable.split(".")[-1]
         schema = writer.register_schema(name, "jsonschema", json.dumps(self._schema(columns)).encode())
         places = [{"name": c.name, "unit": c.unit, "frame": c.frame, "path": path} for c, path in zip(columns, self.paths)]
-        self.id = writer.register_channel("/" + variable.replace(".", "/"), "json", schema,
+        self.id = writer.register_channel(_topic(variable), "json", schema,
                                           {"roboss": json.dumps(places), "variable": variable})
 
     def _schema(self, columns: list[Column]) -> dict[str, Any]:
         if not self.is_pose:
             return {"type": "object", "properties": {path[0]: {"type": "number", "description": column.unit}
                                                      for path, column in zip(self.paths, columns)}}
-        whole = {"type": "integer"}
-        vector = {"type": "object", "properties": {axis: _NUMBER for axis in "xyz"}}
         turn = {"type": "object", "properties": {axis: _NUMBER for axis in "xyzw"}}
         return {"title": "foxglove.PoseInFrame", "type": "object", "properties": {
-            "timestamp": {"type": "object", "title": "time", "properties": {"sec": whole, "nsec": whole}},
-            "frame_id": {"type": "string"},
-            "pose": {"type": "object", "title": "foxglove.Pose", "properties": {"position": vector, "orientation": turn}}}}
+            "timestamp": _STAMP, "frame_id": _TEXT,
+            "pose": {"type": "object", "title": "foxglove.Pose", "properties": {"position": _VECTOR, "orientation": turn}}}}
 
     def message(self, row: Any, stamp: int) -> bytes:
         """The bytes of the message of a row."""
-        data: dict[str, Any] = {}
-        if self.is_pose:
-            data = {"timestamp": {"sec": stamp // 10**9, "nsec": stamp % 10**9}, "frame_id": self.frame}
+        data: dict[str, Any] = _headed(stamp, self.frame) if self.is_pose else {}
         for path, number in zip(self.paths, self.numbers):
             inner = data
             for part in path[:-1]:
                 inner = inner.setdefault(part, {})
-            value = float(row[number])
-            inner[path[-1]] = value if np.isfinite(value) else None  # JSON has no infinity
+            inner[path[-1]] = _plain(float(row[number]))
         return json.dumps(data).encode()
+
+
+class _MessageChannel:
+    """The channel of a variable whose values are messages."""
+
+    def __init__(self, writer: Writer, variable: MessageVariable):
+        self.variable = variable
+        schema = writer.register_schema(variable.layout.name, "jsonschema", json.dumps(self._schema()).encode())
+        self.id = writer.register_channel(_topic(variable.name), "json", schema, {"variable": variable.name})
+
+    def _schema(self) -> dict[str, Any]:
+        layout = self.variable.layout
+        fields = {name: {**_TYPES[kind], "description": layout.units.get(name, "")} if layout.units.get(name) else _TYPES[kind]
+                  for name, kind in layout.fields.items()}
+        if layout.listed:
+            fields = {layout.listed: {"type": "array", "items": {"type": "object", "properties": fields}}}
+        return {"title": layout.name, "type": "object", "properties": {"timestamp": _STAMP, "frame_id": _TEXT, **fields}}
+
+    def message(self, value: Any, stamp: int) -> bytes:
+        """The bytes of the message of a value."""
+        data = _headed(stamp, self.variable.frame)
+        data.update({self.variable.layout.listed: _plain(value)} if self.variable.layout.listed else _plain(value))
+        return json.dumps(data).encode()
+
+
+def _topic(variable: str) -> str:
+    return "/" + variable.replace(".", "/")
+
+
+def _headed(stamp: int, frame: str) -> dict[str, Any]:
+    return {"timestamp": {"sec": stamp // 10**9, "nsec": stamp % 10**9}, "frame_id": frame}
+
+
+def _plain(value: Any) -> Any:
+    """What JSON can hold: null for numbers that are not finite, bytes as base64."""
+    if isinstance(value, float):
+        return value if np.isfinite(value) else None
+    if isinstance(value, bytes):
+        return base64.b64encode(value).decode()
+    if isinstance(value, list):
+        return [_plain(part) for part in value]
+    return {name: _plain(part) for name, part in value.items()} if isinstance(value, dict) else value
 
 
 def _at(data: Any, path: list[str]) -> float:

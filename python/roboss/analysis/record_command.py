@@ -9,8 +9,8 @@ from typing import Any
 
 from ..errors import ArgumentError
 from .command import Parser, Progress
-from .recorder import is_journal, journal_of_run, opened, record
-from .recording import SUFFIXES, write
+from .recorder import is_journal, journal_of_run, opened, record_file
+from .recording import SUFFIXES
 from .variables import Variables
 
 _EXAMPLES = """Variables are named ROBOT.WHAT; * ? [...] match many, up to the next dot, and ** beyond dots. --list shows all that a source has, with units.
@@ -18,6 +18,8 @@ _EXAMPLES = """Variables are named ROBOT.WHAT; * ? [...] match many, up to the n
   arm.elbow.position  .velocity  .effort  .power                     of a joint
   arm.tool.pose  arm.tool.twist                                      of a link
   car_3.laser.ranges                                                 readings of a sensor
+  rover.eye.color  car_3.contact_points  rover_1.radio.messages      messages: images, contact points, what a radio heard
+  contact_points                                                     all contact points of the world
   car_3.**                                                           all of a robot
 
 Examples:
@@ -73,16 +75,13 @@ def run(options: Any) -> Any:
             source = journal_of_run(source, options.until, folder, orders=options.orders, clients=options.client)
         if options.list:
             return _list(options)
-        recording = record(source, options.variables or ["*.pose"], until=options.until, every=options.every,
-                           start=options.start, branch=options.branch,
+        done = record_file(source, options.output, options.variables or ["*.pose"], until=options.until, every=options.every,
+                           start=options.start, branch=options.branch, name=options.source,
                            progress=lambda now, end: progress(f"{now:.2f} of {end:.2f} s"))
-        recording.facts["source"] = options.source
-        write(recording, options.output)
-    result = {"file": options.output, "variables": list(recording.variables), "columns": len(recording.columns),
-              "samples": len(recording.time), "first_s": float(recording.time[0]), "last_s": float(recording.time[-1]),
-              "took_s": round(time.monotonic() - begin, 3)}
+    result = {"file": options.output, "variables": done.variables, "columns": done.columns, "samples": done.samples,
+              "first_s": done.first, "last_s": done.last, "took_s": round(time.monotonic() - begin, 3)}
     if not options.json:
-        print(f"{options.output}: {len(recording.variables)} variables, {result['samples']} samples from "
+        print(f"{options.output}: {len(done.variables)} variables, {result['samples']} samples from "
               f"{result['first_s']:g} to {result['last_s']:g} s")
     return result
 
@@ -90,17 +89,23 @@ def run(options: Any) -> Any:
 def _list(options: Any) -> Any:
     until = options.until if options.until is not None else None if is_journal(options.source) else 0.0
     run_of, _, _ = opened(options.source, options.start, until, options.branch)
-    columns = Variables(run_of, options.variables or None).columns
+    variables = Variables(run_of, options.variables or None, messages=True)
     found: dict[str, list] = {}
-    for column in columns:
+    for column in variables.columns:
         found.setdefault(column.variable, []).append(column)
     rows = [{"variable": name, "parts": [part.name[len(name) + 1:] for part in parts], "units": [part.unit for part in parts],
              "frame": parts[0].frame} for name, parts in found.items()]
+    rows += [{"variable": message.name, "parts": list(message.layout.fields), "frame": message.frame,
+              "units": [message.layout.units.get(name, "") for name in message.layout.fields], "message": message.layout.name}
+             for message in variables.messages.variables]
     if not options.json:
         width = max(len(row["variable"]) for row in rows)
         for row in rows:
             units = list(dict.fromkeys(unit or "-" for unit in row["units"]))
             count = len(row["parts"])
-            parts = "" if count == 1 else " ".join(row["parts"]) if count <= 8 else f"{count} numbers"
+            if "message" in row:
+                parts = f"message of {' '.join(row['parts'])}"
+            else:
+                parts = "" if count == 1 else " ".join(row["parts"]) if count <= 8 else f"{count} numbers"
             print(f"{row['variable']:{width}}  {', '.join(units):12}  {parts}".rstrip())
     return rows

@@ -5,6 +5,7 @@ import os
 import subprocess
 import tempfile
 import warnings
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Callable, Iterable, Iterator, Mapping, Optional, Sequence, Union
 
@@ -16,7 +17,7 @@ from ..kinematics import RobotModel
 from ..run import Run
 from ..simulation import Simulation
 from ..world import World, load
-from .recording import SUFFIXES, Recording, read
+from .recording import READABLE, Recording, read, write, writer_of
 from .variables import Variables
 
 Source = Union[str, os.PathLike, World, Simulation, Journal]
@@ -48,20 +49,72 @@ def record(source: Source, patterns: Union[str, Iterable[str], None] = None, *, 
     >>> recording.values.shape                      # 0, 0.01 ... 0.1 s; 16 cars
     (11, 16)
     """
-    if not isinstance(source, (World, Simulation, Journal)) and Path(source).suffix in SUFFIXES:
+    if not isinstance(source, (World, Simulation, Journal)) and Path(source).suffix in READABLE:
         return _part(read(source), patterns, start, until)
-    run, last, ending = opened(source, start, until, branch)
-    every_ticks = max(1, round(every / run.dt))
+    run, last, name = opened(source, start, until, branch)
     variables = Variables(run, patterns)
     times, rows = [], []
-    for sim in _samples(run, round(last / run.dt), every_ticks):
+    for sim in _samples(run, last, every):
         times.append(sim.time)
         rows.append(variables.read())
         if progress:
             progress(sim.time, last)
-    facts = {"source": ending, "world": run.world.name, "world_hash": run.world.hash, "dt": run.dt,
-             "gravity": list(run.world.gravity), "mass_kg": masses(run.world, {c.name.split(".")[0] for c in variables.columns})}
-    return Recording(np.array(times), variables.columns, np.array(rows).reshape(len(times), -1), facts)
+    return Recording(np.array(times), variables.columns, np.array(rows).reshape(len(times), -1), _facts(run, name, variables))
+
+
+@dataclass
+class Recorded:
+    """What record_file() wrote.
+
+    Attributes:
+        variables: names, those of messages last.
+        columns: number of columns of numbers.
+        samples: number of samples.
+        first, last: their times, s.
+    """
+
+    variables: list[str]
+    columns: int
+    samples: int = 0
+    first: float = 0.0
+    last: float = 0.0
+
+
+def record_file(source: Source, path: Union[str, os.PathLike], patterns: Union[str, Iterable[str], None] = None, *,
+                until: Optional[float] = None, every: float = 0.01, start: Optional[float] = None,
+                branch: Optional[int] = None, progress: Optional[Progress] = None, name: str = "") -> Recorded:
+    """Records variables of a run into a file (.parquet or .mcap) while it runs, so memory does not grow with its length.
+
+    Takes messages, too: images, contact points, what radios heard. After an error or Ctrl-C the file has all samples so far.
+
+    Args:
+        name: what the file calls the source; "": its path.
+        others: as of record().
+
+    For instance `record_file("crossroads.sdf", "run.mcap", ["car_3.pose", "car_3.contact_points"], until=10)`.
+    """
+    if not isinstance(source, (World, Simulation, Journal)) and Path(source).suffix in READABLE:
+        part = _part(read(source), patterns, start, until)
+        write(part, path)
+        ends = (float(part.time[0]), float(part.time[-1])) if len(part.time) else (0.0, 0.0)
+        return Recorded(list(part.variables), len(part.columns), len(part.time), *ends)
+    run, last, ending = opened(source, start, until, branch)
+    variables = Variables(run, patterns, messages=True)
+    names = [*dict.fromkeys(c.variable for c in variables.columns), *(m.name for m in variables.messages.variables)]
+    done = Recorded(names, len(variables.columns), first=run.time)
+    with writer_of(path, variables.columns, _facts(run, name or ending, variables), variables.messages.variables) as writer:
+        for sim in _samples(run, last, every):
+            writer.add(sim.time, variables.read(), variables.messages.read())
+            done.samples, done.last = done.samples + 1, sim.time
+            if progress:
+                progress(sim.time, last)
+    return done
+
+
+def _facts(run: Run, name: str, variables: Variables) -> dict[str, Any]:
+    """What a recording says of its run."""
+    return {"source": name, "world": run.world.name, "world_hash": run.world.hash, "dt": run.dt,
+            "gravity": list(run.world.gravity), "mass_kg": masses(run.world, {c.name.split(".")[0] for c in variables.columns})}
 
 
 def masses(world: World, robots: Iterable[str]) -> dict[str, float]:
@@ -152,11 +205,12 @@ def opened(source: Source, start: Optional[float], until: Optional[float],
     return sim, until, name
 
 
-def _samples(run: Run, last: int, every: int) -> Iterator[Run]:
-    """The run at each time of a sample."""
+def _samples(run: Run, last: float, every: float) -> Iterator[Run]:
+    """The run at each time of a sample, until `last`, s."""
+    ticks = max(1, round(every / run.dt))
     yield run
-    while run.tick + every <= last:
-        run.step(every)
+    while run.tick + ticks <= round(last / run.dt):
+        run.step(ticks)
         yield run
 
 

@@ -6,7 +6,7 @@ import os
 import re
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, Callable, Iterable, Sequence, Union
+from typing import TYPE_CHECKING, Any, Callable, Iterable, Mapping, Sequence, Union
 
 import numpy as np
 
@@ -14,7 +14,13 @@ from ..errors import ArgumentError, RobossError
 from ..names import unknown
 from ..robots import Floats
 
-SUFFIXES = (".parquet", ".mcap")
+if TYPE_CHECKING:
+    from .mcap_file import McapWriter
+    from .messages import MessageVariable
+    from .parquet_file import ParquetWriter
+
+SUFFIXES = (".parquet", ".mcap")      # that are written
+READABLE = (*SUFFIXES, ".csv")         # that are read
 
 
 @dataclass(frozen=True)
@@ -110,22 +116,35 @@ def _expression(pattern: str) -> Callable[[str], Any]:
 
 def write(recording: Recording, path: Union[str, os.PathLike]) -> None:
     """Writes a file; its name says the format: .parquet or .mcap. Raises ArgumentError for another name."""
+    with writer_of(path, recording.columns, recording.facts) as writer:
+        for time, values in zip(recording.time.tolist(), recording.values):
+            writer.add(time, values)
+
+
+def writer_of(path: Union[str, os.PathLike], columns: Sequence[Column], facts: Mapping[str, Any],
+              messages: Sequence[MessageVariable] = ()) -> Union[ParquetWriter, McapWriter]:
+    """A writer of the format that the name of the file says, which takes one sample after the other. Raises ArgumentError for
+    another name."""
     if _suffix(path) == ".parquet":
-        from .parquet_file import write_parquet
-        write_parquet(recording, path)
-    else:
-        from .mcap_file import write_mcap
-        write_mcap(recording, path)
+        from .parquet_file import ParquetWriter
+        return ParquetWriter(path, columns, facts, messages)
+    from .mcap_file import McapWriter
+    return McapWriter(path, columns, facts, messages)
 
 
 def read(path: Union[str, os.PathLike]) -> Recording:
-    """Reads a file of `write`, or of `roboss record`.
+    """Reads the numbers of a file of `write`, or of `roboss record`, or of a table (.csv). Its messages (images, contact points) are left out: pyarrow
+    and mcap read them.
 
     Raises:
         RobossError: it cannot be read (code "no-recording").
     """
-    suffix = _suffix(path)
+    suffix = Path(path).suffix
     try:
+        if suffix == ".csv":
+            from .csv_file import read_csv
+            return read_csv(path)
+        _suffix(path)
         if suffix == ".parquet":
             from .parquet_file import read_parquet
             return read_parquet(path)

@@ -15,7 +15,8 @@ _MM, _DEG = 1e3, 180 / np.pi
 
 
 def arm_report(title: str, conditions: Sequence[Condition], facts: Sequence[tuple[str, str]] = (),
-               stiffness: Optional[tuple[Floats, Floats, Floats]] = None) -> Report:
+               stiffness: Optional[tuple[Floats, Floats, Floats]] = None,
+               exchange: Sequence[tuple[str, float]] = ()) -> Report:
     """Figures by ISO 9283 of one or more conditions."""
     report = Report(title, "Performance criteria by ISO 9283:1998. Formulas and their sources: docs/analysis.md.")
     if facts:
@@ -31,6 +32,10 @@ def arm_report(title: str, conditions: Sequence[Condition], facts: Sequence[tupl
         if condition.name:
             report.heading(condition.name)
         _condition(report, condition)
+    if exchange:
+        report.heading("Exchangeability")
+        report.table("Exchangeability (E)", ["Pose", "E [mm]"], [[name, _MM * value] for name, value in exchange],
+                     "Largest distance between the mean positions of the arms.")
     if stiffness is not None:
         _stiffness(report, *stiffness)
     return report
@@ -64,9 +69,23 @@ def _condition(report: Report, condition: Condition) -> None:
         report.table("Path accuracy (AT) and repeatability (RT)" + mark, ["Path", "Runs", "AT [mm]", "RT [mm]",
                                                                         "Largest speed [m/s]"],
                      [[p.name, p.runs, _MM * p.accuracy, _MM * p.repeatability, p.speed] for p in condition.paths])
+    _drift_and_corners(report, condition, mark)
     if condition.arrivals:
         report.picture(pictures.on_page(lambda axes: _arrivals(axes, condition), 7.5, 2.6),
                        "The last arrival at each pose: distance from where it comes to rest, from the end of the command.")
+
+
+def _drift_and_corners(report: Report, condition: Condition, mark: str) -> None:
+    drifts = [(pose.name, pose.drift) for pose in condition.poses if pose.drift]
+    if drifts:
+        report.table("Drift (dAP, dRP)" + mark, ["Pose", "dAP [mm]", "dRP [mm]", "dAP abc [deg]", "dRP abc [deg]", "Moved [mm]"],
+                     [[name, _MM * d.accuracy, _MM * d.repeatability, _DEG * float(d.accuracy_abc.max()),
+                       _DEG * float(d.repeatability_abc.max()), _MM * d.moved] for name, d in drifts],
+                     "From the first visits to the last ones. Moved: distance between their mean positions.")
+    if condition.corners:
+        report.table("Cornering round-off error (CR) and overshoot (CO)" + mark, ["Corner [m]", "Runs", "CR [mm]", "CO [mm]"],
+                     [[" ".join(f"{x:.3f}" for x in c.place), c.runs, _MM * c.round_off, _MM * c.overshoot]
+                      for c in condition.corners])
 
 
 def _bars(one, two, conditions: Sequence[Condition]) -> None:

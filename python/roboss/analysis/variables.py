@@ -2,7 +2,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any, Callable, Iterable, Union
+from typing import Any, Callable, Iterable, Optional, Union
 
 import numpy as np
 
@@ -11,12 +11,11 @@ from ..names import unknown
 from ..robots import Floats, Robots
 from ..run import Run
 from ..sensors import Sensor
+from .messages import AS_MESSAGES, WORLD_CONTACTS, Messages, kinds_of
 from .recording import Column, matches
 
 _POSE = (("x", "m"), ("y", "m"), ("z", "m"), ("qx", ""), ("qy", ""), ("qz", ""), ("qw", ""))
 _TWIST = (("vx", "m/s"), ("vy", "m/s"), ("vz", "m/s"), ("wx", "rad/s"), ("wy", "rad/s"), ("wz", "rad/s"))
-#: Kinds of sensors whose readings are images, texts, or lists that change their length.
-_NO_NUMBERS = ("camera", "contact", "radio")
 _Read = Callable[[Robots], Any]  # gives (N, parts)
 
 
@@ -44,12 +43,14 @@ class Variables:
     Args:
         run: a Simulation or RemoteSimulation.
         patterns: None: all.
+        messages: choose messages, too: images, contact points, what radios heard (`messages`).
 
     Raises:
         UnknownNameError: a pattern matches nothing.
+        ArgumentError: a pattern matches only messages, which were not wanted (code "no-numbers").
     """
 
-    def __init__(self, run: Run, patterns: Union[str, Iterable[str], None] = None):
+    def __init__(self, run: Run, patterns: Union[str, Iterable[str], None] = None, messages: bool = False):
         wanted = None if patterns is None else [patterns] if isinstance(patterns, str) else list(patterns)
         self.columns: list[Column] = []  #: of the arrays of read()
         self._parts: list[tuple[Robots, _Read, list[int]]] = []
@@ -71,12 +72,41 @@ class Variables:
                 if rows:
                     some = robots if len(rows) == len(robots) else robots[np.array(rows)]
                     self._parts.append((some, kind.read, [place for row in places for place in row]))
+        self.messages = Messages(run)  #: those that match; of read_messages()
+        unmatched = self._choose_messages(run, wanted, unmatched, known, messages)
         for pattern in unmatched:
             raise unknown("variable", pattern, known)
         self._chosen = [number for number, column in enumerate(self.columns)
                         if wanted is None or any(matches(p, column) for p in wanted)]
         self._all = len(self.columns)
         self.columns = [self.columns[number] for number in self._chosen]
+
+    def _choose_messages(self, run: Run, wanted: Optional[list[str]], unmatched: set[str], known: list[str],
+                         takes: bool) -> set[str]:
+        """Adds the messages that match to self.messages, and all to the known names; gives the patterns that still match nothing."""
+        if not takes and not unmatched:
+            return unmatched  # sensors are not asked in vain
+        chosen = Messages(run)
+
+        def fits(name: str) -> bool:
+            known.append(name)
+            unmatched.difference_update([pattern for pattern in wanted or () if matches(pattern, Column(name, name))])
+            return wanted is None or any(matches(pattern, Column(name, name)) for pattern in wanted)
+
+        before = set(unmatched)
+        if fits(WORLD_CONTACTS.name):
+            chosen.add_world_contacts()
+        for robots in _by_type(run):
+            for kind in kinds_of(robots):
+                rows = [row for row, robot in enumerate(robots.names) if fits(kind.variable(robot).name)]
+                if rows:
+                    chosen.add(robots if len(rows) == len(robots) else robots[np.array(rows)], kind)
+        if takes:
+            self.messages = chosen
+        elif before != unmatched:
+            raise ArgumentError(f"'{min(before - unmatched)}' names messages, not numbers",
+                                "write them into a file with `roboss record`, or analysis.record_file()", "no-numbers")
+        return unmatched
 
     def read(self) -> Floats:
         """Values at the present tick, (columns,)."""
@@ -151,9 +181,9 @@ def _of_links(robots: Robots) -> list[_Kind]:
 
 def _of_sensors(robots: Robots) -> list[_Kind]:
     kinds = []
-    for name in robots.sensors:
+    for name in dict.fromkeys(robots.sensors):  # of equal names the first
         sensor = robots[:1][name]
-        if not isinstance(sensor, Sensor) or any(word in sensor.kind for word in _NO_NUMBERS):
+        if not isinstance(sensor, Sensor) or any(word in sensor.kind for word in AS_MESSAGES):
             continue
         try:
             readings, units = sensor.read_all(), sensor.units

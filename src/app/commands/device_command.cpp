@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <filesystem>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <thread>
@@ -41,6 +42,9 @@ A robot's twin among simulated ones; the world is that of the run, so none is na
   roboss controller worlds/khepera.sdf --local 1 --simulators 0 --simulation lab &
   roboss device --twin --simulation lab --client roboss_khepera.so --robot khepera --connect ... --protocol khepera
 
+Two robots that work apart: one that is silent rests alone, the other goes on:
+  roboss device ... --robot blue_0 --connect ... --robot blue_1 --connect ... --on-silence stop-this
+
 Protocols, and what happens when a line fails: docs/devices.md.
 
 Exit codes: 0 the time is over, or the run of the twin has ended; 1 the world, the program or a line cannot be used; 2
@@ -50,11 +54,14 @@ get the command to stop in each case.)";
 struct DeviceOptions {
     MemberOptions member;
     std::string world, program;
-    std::vector<std::string> robots, lines, protocols, cameras;
+    std::vector<std::string> robots, lines, protocols, cameras, on_silence;
     DeviceRunOptions run;
     std::string json;
     bool twin = false;
 };
+
+const std::map<std::string, OnSilence> kOnSilence{
+    {"stop-all", OnSilence::kStopAll}, {"stop-this", OnSilence::kStopThis}, {"go-on", OnSilence::kGoOn}};
 
 double now_s() {
     return static_cast<double>(monotonic_ns()) * 1e-9;
@@ -75,7 +82,6 @@ class DeviceProcess {
         report_end();
         if (!o_.json.empty() && !write_summary()) return kRunFailed;
         if (!run_->failure()) return stopped_ ? kInterrupted : kSuccess;
-        member_.report_error(*run_->failure());
         return kRunFailed;
     }
 
@@ -91,6 +97,10 @@ class DeviceProcess {
         if (o_.protocols.size() > 1 && o_.protocols.size() != o_.robots.size())
             return Error{fmt::format("{} --protocol for {} robots", o_.protocols.size(), o_.robots.size()),
                          "give one for all, or one for each"};
+        const std::size_t devices = o_.robots.size() + o_.cameras.size();
+        if (o_.on_silence.size() > 1 && o_.on_silence.size() != devices)
+            return Error{fmt::format("{} --on-silence for {} devices", o_.on_silence.size(), devices),
+                         "give one for all, or one for each --robot and then for each --camera"};
         return Ok{};
     }
 
@@ -122,7 +132,10 @@ class DeviceProcess {
         if (!adapter) return adapter.error();
         auto line = open_line(address);
         if (!line) return line.error();
-        lines_.push_back({std::move(line).value(), std::move(adapter).value(), id});
+        OnSilence chosen = OnSilence::kStopAll;
+        if (!o_.on_silence.empty())
+            chosen = kOnSilence.at(o_.on_silence[std::min(lines_.size(), o_.on_silence.size() - 1)]);
+        lines_.push_back({std::move(line).value(), std::move(adapter).value(), id, chosen});
         return Ok{};
     }
 
@@ -161,6 +174,7 @@ class DeviceProcess {
         while (run_->phase() != DeviceRun::Phase::kOver) {
             if (interrupted() && !std::exchange(stopped_, true)) run_->stop();
             run_->advance(now_s());
+            if (run_->failure() && !std::exchange(failed_, true)) member_.report_error(*run_->failure());
             for (const std::string& notice : run_->take_notices()) member_.report(notice);
             if (twin_)
                 move_twin();
@@ -228,7 +242,7 @@ class DeviceProcess {
     std::unique_ptr<DeviceRun> run_;
     std::unique_ptr<BusClient> member_client_;
     std::unique_ptr<Twin> twin_;
-    bool stopped_ = false, run_ended_ = false;
+    bool stopped_ = false, run_ended_ = false, failed_ = false;
 };
 
 }  // namespace
@@ -262,15 +276,25 @@ void add_device_command(CLI::App& app, int& exit_code) {
         ->allow_extra_args(false)
         ->group(group);
     command
+        ->add_option(
+            "--on-silence", options->on_silence,
+            "while a device is silent: stop-all robots (default), stop-this robot, or go-on; one for all "
+            "devices, or one for each --robot and then for each --camera")
+        ->check(CLI::IsMember({"stop-all", "stop-this", "go-on"}))
+        ->allow_extra_args(false)
+        ->group(group);
+    command
         ->add_option("--duration", options->run.duration_s,
                      "end after driving for this long, s (default: at Ctrl-C)")
         ->check(positive_number());
     command
         ->add_option("--max-age", options->run.max_age_s,
-                     "stop the robots while readings are older than this, s")
+                     "a device is silent while its readings are older than this, s")
         ->check(positive_number())
         ->capture_default_str();
-    command->add_option("--give-up", options->run.give_up_s, "end when a device is silent for this long, s")
+    command
+        ->add_option("--give-up", options->run.give_up_s,
+                     "end when a device that stops all is silent for this long, s")
         ->check(positive_number())
         ->capture_default_str();
     command->add_option("--seed", options->run.seed, "what Client::seed() gives")->capture_default_str();

@@ -1,0 +1,64 @@
+"""Tables of measurements as CSV: a line with the names of the columns, one of which is "time" (s), then numbers."""
+from __future__ import annotations
+
+import csv
+import os
+from typing import Sequence, Union
+
+import numpy as np
+
+from ..errors import ArgumentError
+from .recording import Column, Recording
+
+
+def read_csv(path: Union[str, os.PathLike]) -> Recording:
+    """Reads a table. Columns stand between commas, semicolons or tabs, whichever the first line has; empty cells are NaN.
+    Lines that are empty or begin with # do not count. Names are those of `roboss record`; units are not known.
+
+    Raises:
+        ArgumentError: a line has too few or too many cells, or a cell is no number, or there is no column "time" (code
+            "bad-table"), with the line.
+    """
+    names: list[str] = []
+    rows: list[list[float]] = []
+    with open(path, newline="", encoding="utf-8-sig") as stream:
+        for number, line in enumerate(stream, 1):
+            if not line.strip() or line.startswith("#"):
+                continue
+            where = f"{os.fspath(path)}:{number}"
+            delimiter = delimiter if names else max(",;\t", key=line.count)
+            cells = [cell.strip() for cell in next(csv.reader([line], delimiter=delimiter))]
+            if not names:
+                names = _checked(cells, where)
+            else:
+                rows.append(_numbers(cells, names, where))
+    if not names:
+        raise ArgumentError(f"'{os.fspath(path)}' is empty", "give a line with the names of the columns, then numbers", "bad-table")
+    values = np.array(rows, dtype=float).reshape(len(rows), len(names))
+    time = names.index("time")
+    columns = [Column(name, name) for name in names if name != "time"]
+    return Recording(values[:, time], columns, np.delete(values, time, axis=1))
+
+
+def _checked(names: list[str], where: str) -> list[str]:
+    """The names of the columns."""
+    if "time" not in names:
+        raise ArgumentError(f"{where}: no column 'time'; there is {', '.join(names[:8])}",
+                            "name the columns in the first line: time, robot.x ..., as `roboss record` does", "bad-table")
+    twice = sorted({name for name in names if names.count(name) > 1})
+    if twice:
+        raise ArgumentError(f"{where}: two columns are named '{twice[0]}'", "give each its own name", "bad-table")
+    return names
+
+
+def _numbers(cells: Sequence[str], names: Sequence[str], where: str) -> list[float]:
+    if len(cells) != len(names):
+        raise ArgumentError(f"{where}: {len(cells)} cells for {len(names)} columns", "leave cells empty, not out", "bad-table")
+    values = []
+    for cell, name in zip(cells, names):
+        try:
+            values.append(float(cell) if cell else np.nan)
+        except ValueError:
+            raise ArgumentError(f"{where}: '{cell}' in column '{name}' is no number", "write numbers with a point; leave cells "
+                                "without a value empty", "bad-table") from None
+    return values

@@ -1,0 +1,51 @@
+"""Example scripts with wrong input: a clear text and exit code 2, no traceback."""
+import os
+import socket
+import subprocess
+import sys
+
+import pytest
+
+import roboss
+from conftest import REPOSITORY
+
+EXAMPLES, SOCCER, ARM = REPOSITORY / "examples", REPOSITORY / "worlds" / "soccer.sdf", roboss.example("arm.sdf")
+TERRAIN, STAND_IN = "spider/terrain.py", "devices/joints_stand_in.py"
+PROGRAM = EXAMPLES / "arm_program" / "pick_and_place.txt"
+
+
+def refusal(script, *words):
+    """What a script says when it ends with 2."""
+    done = subprocess.run([sys.executable, EXAMPLES / script, *map(str, words)], capture_output=True, text=True, check=False,
+                          timeout=60, env={**os.environ, "PYTHONDONTWRITEBYTECODE": "1"})
+    assert done.returncode == 2 and "Traceback" not in done.stderr and done.stderr.strip(), done.stderr
+    return done.stderr
+
+
+@pytest.mark.parametrize("text", ["", "# nothing\n", "strid = 0.1", "stride 0.1", "stride = [1]", "stride = '0.1'", "phases = [0, 1]",
+                                  "phases = 0.5", None])
+def test_a_gait_that_is_none(tmp_path, text):
+    path = tmp_path / "gait.toml"
+    if text is not None:
+        path.write_text(text)
+    assert "gait.toml" in refusal(TERRAIN, path) and "remedy: " in refusal(TERRAIN, path)
+
+
+@pytest.mark.parametrize("script, words", [
+    (TERRAIN, [EXAMPLES / "spider/gaits/walk.toml", "--spiders", 0]),
+    ("spider/search.py", ["--start", "no_such.toml", "-o", "a.toml"]),
+    (STAND_IN, ["no_such.sdf"]), (STAND_IN, [SOCCER, "--robot", "blue_0"]), (STAND_IN, [SOCCER, "--robot", "green_0:0"]),
+    (STAND_IN, [SOCCER, "--camera", 0, "--frames", 0]), ("devices/khepera_stand_in.py", ["no_such.sdf"]),
+    ("devices/khepera_stand_in.py", [SOCCER]), ("devices/khepera_stand_in.py", [REPOSITORY / "worlds/khepera.sdf", "--baud", 0]),
+    ("arm_program/arm_program.py", ["no_such.urdf", PROGRAM]), ("arm_program/arm_program.py", [ARM, "no_such.txt"]),
+    ("arm_program/arm_program.py", [ARM, PROGRAM, "--link", "no_such"]), ("arm_program/arm_program.py", [ARM, PROGRAM, "--ramp", 0]),
+    ("arm_program/arm_program.py", [ARM, sys.executable]),
+])
+def test_wrong_input(script, words):
+    refusal(script, *words)
+
+
+def test_a_port_that_is_taken():
+    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as other:
+        other.bind(("", 0))
+        assert "joints_stand_in: " in refusal(STAND_IN, SOCCER, "--camera", other.getsockname()[1])
