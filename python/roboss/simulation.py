@@ -7,16 +7,27 @@ from typing import Iterable, Optional, Sequence, Union
 from numpy.typing import ArrayLike
 
 from . import _core
-from .errors import StateError
+from .errors import ArgumentError, StateError
 from .names import filled
 from .robots import Robots
 from .run import Run
 from .view import View
 from .world import World, load
 
+_THREADS_MOST = 1024  # as the command line
+
+
 def threads_or_all(threads: Optional[int]) -> int:
-    """The number given, at least 1; of None one for each core that this process may use."""
-    return len(os.sched_getaffinity(0)) if threads is None else max(1, threads)
+    """The number given; of None one for each core that this process may use.
+
+    Raises:
+        ArgumentError: not 1 to 1024.
+    """
+    if threads is None:
+        return min(len(os.sched_getaffinity(0)), _THREADS_MOST)
+    if not 1 <= threads <= _THREADS_MOST:
+        raise ArgumentError(f"{threads} threads", f"give 1 to {_THREADS_MOST}, or None for one a core", "bad-threads")
+    return threads
 
 
 class Simulation(Run):

@@ -41,6 +41,15 @@ def test_names_that_do_not_exist(crossroads):
         roboss.example("town.sdf")
 
 
+@pytest.mark.parametrize("threads", [-1, 0, 1025, 10**9])
+def test_numbers_of_threads_that_cannot_be(threads):
+    ball = BALL.format("")
+    for make in (lambda: roboss.Simulation(ball, threads=threads), lambda: roboss.Batch(ball, 1, threads=threads)):
+        with pytest.raises(roboss.ArgumentError) as error:
+            make()
+        refused(error, "bad-threads", str(threads), "1024")
+
+
 def test_arrays_that_do_not_fit(crossroads):
     cars = crossroads.robots("car_*")
     for wrong in (np.zeros((15, 7)), np.zeros(16), "far away", [[1, 2], [3]]):

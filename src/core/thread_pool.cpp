@@ -3,11 +3,18 @@
 
 #include <algorithm>
 #include <chrono>
+#include <system_error>
 
 namespace roboss {
 
 ThreadPool::ThreadPool(unsigned threads) {
-    for (unsigned i = 1; i < threads; ++i) workers_.emplace_back([this, i] { serve(i); });
+    for (unsigned i = 1; i < threads; ++i) {
+        try {
+            workers_.emplace_back([this, i] { serve(i); });
+        } catch (const std::system_error&) {
+            break;
+        }
+    }
 }
 
 ThreadPool::~ThreadPool() {

@@ -18,7 +18,8 @@ class ThreadPool {
   public:
     using Work = std::function<void(std::size_t item, std::size_t worker)>;
 
-    /// `threads` counts the calling thread; 0 is taken as 1.
+    /// `threads` counts the calling thread; 0 is taken as 1. A system that starts no more threads gives a
+    /// pool of fewer.
     explicit ThreadPool(unsigned threads);
     ~ThreadPool();
     ThreadPool(const ThreadPool&) = delete;

@@ -2,8 +2,13 @@
 #include "core/thread_pool.h"
 
 #include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
+#include <cstdlib>
+#include <fstream>
 
 namespace roboss {
 namespace {
@@ -29,6 +34,29 @@ TEST(ThreadPool, BatchesSmallerThanThePoolMixWithLargeOnes) {
         pool.run(hits.size(), [&](std::size_t item, std::size_t) { ++hits[item]; });
         for (const int hit : hits) ASSERT_EQ(hit, 1) << "batch " << batch;
     }
+}
+
+// Stacks of threads need address space: a process with little left is one whose system starts few threads.
+void work_with_little_address_space() {
+    constexpr rlim_t kLittle = rlim_t{256} << 20;
+    std::size_t pages = 0;
+    std::ifstream("/proc/self/statm") >> pages;
+    const rlim_t most = pages * static_cast<rlim_t>(sysconf(_SC_PAGESIZE)) + kLittle;
+    const rlimit limit{most, most};
+    if (setrlimit(RLIMIT_AS, &limit) != 0) std::exit(1);
+    ThreadPool pool(1000);
+    if (pool.threads() >= 1000) std::exit(2);
+    std::vector<int> hits(5'000, 0);
+    pool.run(hits.size(), [&](std::size_t item, std::size_t) { ++hits[item]; });
+    std::exit(std::ranges::all_of(hits, [](int hit) { return hit == 1; }) ? 0 : 3);
+}
+
+TEST(ThreadPoolDeathTest, ASystemThatStartsNoMoreThreadsGivesAPoolOfFewer) {
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+    GTEST_SKIP() << "sanitizers need much address space themselves";
+#endif
+    GTEST_FLAG_SET(death_test_style, "threadsafe");
+    EXPECT_EXIT(work_with_little_address_space(), testing::ExitedWithCode(0), "");
 }
 
 TEST(ThreadPool, ShowsSignsOfLifeWhileTheCallerWaitsForOthers) {

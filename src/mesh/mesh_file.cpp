@@ -24,6 +24,7 @@ namespace {
 constexpr std::size_t kTrianglesMax = 2'000'000;
 constexpr std::uintmax_t kBytesMax = 512u << 20;
 constexpr double kFar = 1e6;  // m
+constexpr std::string_view kKinds[] = {".stl", ".obj", ".dae", ".glb", ".gltf"};
 
 std::string extension_of(const std::string& path) {
     std::string extension = std::filesystem::path(path).extension().string();
@@ -156,30 +157,37 @@ Error no_area() {
     return {"holds only triangles without area", "Export it anew, and check <scale>."};
 }
 
-std::string picture_of(const aiMaterial& material, aiTextureType type) {
+MeshPicture picture_of(const aiScene& scene, const aiMaterial& material, aiTextureType type) {
     aiString path;
     if (material.GetTexture(type, 0, &path) != aiReturn_SUCCESS) return {};
-    std::string name = path.C_Str();
-    if (name.starts_with('*')) return {};  // inside the file: no kind that is read here has that
-    std::replace(name.begin(), name.end(), '\\', '/');
-    return name;
+    MeshPicture picture;
+    picture.name = path.C_Str();
+    std::replace(picture.name.begin(), picture.name.end(), '\\', '/');
+    const aiTexture* inside = scene.GetEmbeddedTexture(path.C_Str());
+    if (inside == nullptr) return picture;
+    // Height 0: a whole PNG or JPEG file of mWidth bytes. Bare pixels are in no kind that is read here.
+    if (inside->mHeight != 0) return {};
+    const auto* bytes = reinterpret_cast<const std::uint8_t*>(inside->pcData);
+    picture.bytes.assign(bytes, bytes + inside->mWidth);
+    return picture;
 }
 
 /// Where a picture gives the colour, COLLADA says none beside it (assimp makes up a grey), and some exporters
 /// of OBJ say black.
-void describe(const aiMaterial& material, bool collada, MeshPart& part) {
+void describe(const aiScene& scene, const aiMaterial& material, bool collada, MeshPart& part) {
     aiString name;
     aiColor3D diffuse;
     float opacity = 1;
-    part.colour = picture_of(material, aiTextureType_DIFFUSE);
-    part.normal = picture_of(material, aiTextureType_NORMALS);
+    part.colour = picture_of(scene, material, aiTextureType_DIFFUSE);
+    part.normal = picture_of(scene, material, aiTextureType_NORMALS);
     if (material.Get(AI_MATKEY_NAME, name) == aiReturn_SUCCESS &&
         std::string_view(name.C_Str()) == AI_DEFAULT_MATERIAL_NAME)
         return;
     if (material.Get(AI_MATKEY_COLOR_DIFFUSE, diffuse) == aiReturn_SUCCESS)
         part.rgb = Vec3{static_cast<double>(diffuse.r), static_cast<double>(diffuse.g),
                         static_cast<double>(diffuse.b)};
-    if (!part.colour.empty() && (collada || !part.rgb || norm(*part.rgb) < 1e-6)) part.rgb = Vec3{1, 1, 1};
+    if (!part.colour.name.empty() && (collada || !part.rgb || norm(*part.rgb) < 1e-6))
+        part.rgb = Vec3{1, 1, 1};
     if (material.Get(AI_MATKEY_OPACITY, opacity) == aiReturn_SUCCESS && opacity > 0 && opacity <= 1)
         part.alpha = static_cast<double>(opacity);
 }
@@ -197,9 +205,9 @@ Result<const aiScene*> open_scene(Assimp::Importer& importer, const std::string&
     if (bytes == 0) return Error{"is empty", "Export the mesh anew."};
     if (bytes > kBytesMax) return Error{"is larger than 512 MiB", "Give a coarser mesh for the collision."};
     const std::string extension = extension_of(path);
-    if (extension != ".stl" && extension != ".obj" && extension != ".dae")
+    if (std::ranges::find(kKinds, extension) == std::end(kKinds))
         return Error{"is of a kind ('" + extension + "') that is not read",
-                     "Convert it to STL, OBJ or DAE (COLLADA)."};
+                     "Convert it to STL, OBJ, DAE (COLLADA) or GLB (glTF)."};
     importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, true);
     importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_USE_COLLADA_NAMES, true);
     const aiScene* scene = importer.ReadFile(path, aiProcess_Triangulate);
@@ -235,7 +243,7 @@ Result<std::vector<MeshPart>> read_mesh_parts(const MeshRequest& request) {
     for (unsigned m = 0; m < scene.value()->mNumMaterials; ++m) {
         MeshPart part{join(triangles.value(), request, m).mesh, {}, 1, {}, {}};
         if (part.mesh.triangles.empty()) continue;
-        describe(*scene.value()->mMaterials[m], extension_of(request.path) == ".dae", part);
+        describe(*scene.value(), *scene.value()->mMaterials[m], extension_of(request.path) == ".dae", part);
         parts.push_back(std::move(part));
     }
     if (parts.empty()) return no_area();

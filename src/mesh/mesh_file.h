@@ -1,6 +1,7 @@
-// Mesh files (STL, OBJ, DAE) to plain triangles. The only place that knows assimp.
+// Mesh files (STL, OBJ, DAE, glTF) to plain triangles. The only place that knows assimp.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -23,17 +24,24 @@ struct MeshFile {
 };
 
 /// Corners with equal coordinates are joined, nodes' transforms and COLLADA's unit are applied, COLLADA's up
-/// axis is not (as in Gazebo). Coordinates have the digits of single precision, as assimp reads them. Errors:
-/// no such file, not a mesh, no triangles, a coordinate that is not finite or beyond 1e6 m, more than two
-/// million triangles, no such part.
+/// axis is not (as in Gazebo); glTF's axes are taken as they stand. Coordinates have the digits of single
+/// precision, as assimp reads them. Errors: no such file, not a mesh, no triangles, a coordinate that is not
+/// finite or beyond 1e6 m, more than two million triangles, no such part.
 Result<MeshFile> read_mesh(const MeshRequest& request);
+
+/// A picture that a mesh file names, or holds.
+struct MeshPicture {
+    std::string name;  // empty: none
+    std::vector<std::uint8_t>
+        bytes;  // a PNG or JPEG file inside the mesh file (glTF); empty: a file beside it
+};
 
 /// What the triangles of one material look like.
 struct MeshPart {
     MeshSpec mesh;            // with uv where the file has them
     std::optional<Vec3> rgb;  // none: the file says nothing
     double alpha = 1;
-    std::string colour, normal;  // pictures as the file names them; empty: none
+    MeshPicture colour, normal;
 };
 
 /// The same triangles to be drawn, by material; the same Errors.

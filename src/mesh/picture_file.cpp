@@ -77,17 +77,27 @@ Size webp_size(const Bytes& b) {
     return {};
 }
 
+Error too_large() {
+    return {"is larger than 32 MiB", "Save it with fewer pixels."};
+}
+
 }  // namespace
 
 Result<PictureSpec> read_picture(const std::string& path) {
     std::error_code error;
-    const std::uintmax_t bytes = std::filesystem::file_size(path, error);
+    const std::uintmax_t size = std::filesystem::file_size(path, error);
     if (error) return Error{"cannot be read: " + error.message(), "Check that it is a file and may be read."};
-    if (bytes > kBytesMax) return Error{"is larger than 32 MiB", "Save it with fewer pixels."};
+    if (size > kBytesMax) return too_large();
     std::ifstream in(path, std::ios::binary);
-    PictureSpec picture{path, PictureKind::kPng, 0, 0, std::vector<std::uint8_t>(bytes)};
-    in.read(reinterpret_cast<char*>(picture.bytes.data()), static_cast<std::streamsize>(bytes));
+    std::vector<std::uint8_t> bytes(size);
+    in.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(size));
     if (!in) return Error{"cannot be read", "Check that it is a file and may be read."};
+    return picture_in(std::move(bytes), path);
+}
+
+Result<PictureSpec> picture_in(std::vector<std::uint8_t> bytes, std::string source) {
+    if (bytes.size() > kBytesMax) return too_large();
+    PictureSpec picture{std::move(source), PictureKind::kPng, 0, 0, std::move(bytes)};
     const Bytes b(picture.bytes);
     Size size;
     if (b.has(0, "\x89PNG\r\n\x1A\n")) {

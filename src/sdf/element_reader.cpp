@@ -3,6 +3,7 @@
 
 #include <cctype>
 #include <cmath>
+#include <span>
 
 namespace roboss::sdf_import {
 /// libsdformat takes the number at the start of a word and leaves the rest.
@@ -39,9 +40,10 @@ bool ElementReader::numbers(const Element& element, std::span<double> values, Fi
                              "Write " + expected + ", or leave it out.");
         return false;
     }
-    if (words.size() != values.size()) return bad_value(element, expected), false;
+    const bool has_more = values.size() == 1 && words.size() > 1;  // libsdformat takes the first
+    if (words.size() != values.size() && !has_more) return bad_value(element, expected), false;
     std::vector<double> parsed;
-    for (const auto word : words) {
+    for (const auto word : std::span(words).first(values.size())) {
         auto value = parse_number(word);
         if (!value && (value = number_at_start(word))) report_rest(element, word);
         const bool good =
@@ -49,6 +51,7 @@ bool ElementReader::numbers(const Element& element, std::span<double> values, Fi
         if (!good) return bad_value(element, expected), false;
         parsed.push_back(*value);
     }
+    if (has_more) report_rest(element, element.node.text().get());
     std::copy(parsed.begin(), parsed.end(), values.begin());
     return true;
 }

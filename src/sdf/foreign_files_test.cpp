@@ -5,6 +5,7 @@
 
 #include <cstdlib>
 
+#include "mesh/image_file.h"
 #include "sdf/test_files.h"
 
 namespace roboss {
@@ -90,6 +91,14 @@ TEST(ForeignFiles, FileUrisAreLookedForInEveryResourceFolder) {
                                  "IGN_GAZEBO_RESOURCE_PATH", "GZ_FILE_PATH", "IGN_FILE_PATH", "SDF_PATH"})
         expect_mesh(load_with(folder, "world/world.sdf", variable, "/nowhere:" + folder.path("share")),
                     variable);
+}
+
+TEST(ForeignFiles, GazeboClassicHasMeshesInMediaModels) {
+    const TestFolder folder;
+    folder.write("share/Media/models/part.obj", kFace);
+    folder.write("world/world.sdf", world_file(model_with_mesh("file://part.obj")));
+    EXPECT_NE(folder.load("world/world.sdf").find("file-not-found"), nullptr);
+    expect_mesh(load_with(folder, "world/world.sdf", "GAZEBO_RESOURCE_PATH", folder.path("share")), "Media");
 }
 
 TEST(ForeignFiles, FilesAreFoundInFoldersAboveTheModel) {
@@ -190,6 +199,43 @@ TEST(ForeignFiles, TextBehindANumberIsIgnoredWithAWarning) {
     EXPECT_FALSE(loaded.diagnostics.has_errors()) << loaded.text();
     EXPECT_NE(loaded.find("trailing-text"), nullptr);
     EXPECT_EQ(loaded.world->prototypes[0].joints[0].axes[0].max_velocity, 2.5);
+}
+
+TEST(ForeignFiles, OfSeveralNumbersWhereOneBelongsTheFirstCounts) {
+    const Loaded loaded = load_elements("<model name='m'>" +
+                                        link("a",
+                                             "<collision name='c'><geometry><sphere><radius>0.5 2 "
+                                             "3</radius></sphere></geometry></collision>") +
+                                        "</model>");
+    EXPECT_FALSE(loaded.diagnostics.has_errors()) << loaded.text();
+    EXPECT_NE(loaded.find("trailing-text"), nullptr);
+    EXPECT_EQ(loaded.world->prototypes[0].links[0].collisions[0].geometry.radius, 0.5);
+}
+
+TEST(ForeignFiles, ALensThatIsNotKnownCostsNoModel) {
+    const Loaded loaded = load_elements(
+        "<model name='m'>" +
+        link("a",
+             "<sensor name='eye' type='wideanglecamera'><camera><horizontal_fov>2</horizontal_fov>"
+             "<lens><type>sterographic</type></lens></camera></sensor>") +
+        "</model>");
+    EXPECT_FALSE(loaded.diagnostics.has_errors()) << loaded.text();
+    ASSERT_NE(loaded.find("sensor"), nullptr) << loaded.text();
+    EXPECT_NE(loaded.find("sensor")->message.find("'sterographic'"), std::string::npos);
+    EXPECT_EQ(loaded.world->prototypes[0].links[0].sensors.size(), 1u);
+}
+
+TEST(ForeignFiles, AModelThatIsAHeightmapStandsStill) {
+    const TestFolder folder;
+    ASSERT_TRUE(write_png16(folder.path("hills.png"), 3, 3, std::vector<std::uint16_t>(9, 0)).ok());
+    folder.write("hills.sdf", model_file("<model name='hills'><link name='a'><collision name='c'><geometry>"
+                                         "<heightmap><uri>hills.png</uri><size>4 4 1</size></heightmap>"
+                                         "</geometry></collision></link></model>"));
+    const Loaded loaded = folder.load("hills.sdf");
+    EXPECT_FALSE(loaded.diagnostics.has_errors()) << loaded.text();
+    EXPECT_NE(loaded.find("movable-heightmap"), nullptr) << loaded.text();
+    ASSERT_TRUE(loaded.world);
+    EXPECT_TRUE(loaded.world->prototypes.at(0).is_static);
 }
 
 TEST(ForeignFiles, AnEmptyElementIsItsDefaultWithAWarning) {

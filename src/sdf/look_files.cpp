@@ -3,7 +3,6 @@
 
 #include <filesystem>
 
-#include "mesh/mesh_file.h"
 #include "mesh/picture_file.h"
 #include "sdf/shape_files.h"
 
@@ -21,17 +20,22 @@ std::shared_ptr<const PictureSpec> LookFiles::open(const std::string& path, cons
                                                    const std::string& whose, Diagnostics& diagnostics) {
     const auto [entry, is_new] = pictures_.try_emplace(path);
     if (!is_new || !opens_) return entry->second;
+    return entry->second = keep(read_picture(path), path, where, whose, diagnostics);
+}
+
+std::shared_ptr<const PictureSpec> LookFiles::keep(Result<PictureSpec> picture, const std::string& path,
+                                                   const SourceLocation& where, const std::string& whose,
+                                                   Diagnostics& diagnostics) {
     const auto refuse = [&](const std::string& why, const std::string& remedy) {
         diagnostics.warning(where, "bad-picture", whose + " '" + path + "' " + why, remedy + " " + kPlain);
         return nullptr;
     };
-    Result<PictureSpec> picture = read_picture(path);
     if (!picture) return refuse(picture.error().message, picture.error().remedy);
     if (bytes_ + picture.value().bytes.size() > kBytesMax)
         return refuse("is one too many: all pictures of a world have 128 MiB at most",
                       "Save them with fewer pixels, or as JPEG.");
     bytes_ += picture.value().bytes.size();
-    return entry->second = std::make_shared<const PictureSpec>(std::move(picture).value());
+    return std::make_shared<const PictureSpec>(std::move(picture).value());
 }
 
 std::shared_ptr<const PictureSpec> LookFiles::picture(const Element& parent, const char* child,
@@ -50,12 +54,21 @@ std::shared_ptr<const PictureSpec> LookFiles::picture(const Element& parent, con
     return nullptr;
 }
 
-std::shared_ptr<const PictureSpec> LookFiles::picture_of_mesh(const std::string& name, const Element& mesh,
+std::shared_ptr<const PictureSpec> LookFiles::picture_of_mesh(MeshPicture picture, const Element& mesh,
                                                               const GeometrySpec& spec,
                                                               Diagnostics& diagnostics) {
+    const std::string& name = picture.name;
     if (name.empty()) return nullptr;
     const fs::path folder = fs::path(spec.uri).parent_path(), file = fs::path(name).filename();
     const std::string whose = "the mesh '" + spec.uri + "' names the picture";
+    if (!picture.bytes.empty()) {
+        const std::string source = spec.uri + "#" + name;
+        const auto [entry, is_new] = pictures_.try_emplace(source);
+        if (is_new)
+            entry->second =
+                keep(picture_in(std::move(picture.bytes), source), source, mesh.where(), whose, diagnostics);
+        return entry->second;
+    }
     for (const fs::path& path :
          {folder / name, folder / file, folder.parent_path() / "materials" / "textures" / file}) {
         std::error_code error;
@@ -80,8 +93,8 @@ const std::vector<MeshLook>& LookFiles::parts(const Element& mesh, const Geometr
     if (!read) return entry->second;
     for (MeshPart& part : read.value()) {
         MeshLook look{nullptr, part.rgb, part.alpha, {}};
-        look.finish.colour = picture_of_mesh(part.colour, mesh, spec, diagnostics);
-        look.finish.normal = picture_of_mesh(part.normal, mesh, spec, diagnostics);
+        look.finish.colour = picture_of_mesh(std::move(part.colour), mesh, spec, diagnostics);
+        look.finish.normal = picture_of_mesh(std::move(part.normal), mesh, spec, diagnostics);
         look.mesh = std::make_shared<const MeshSpec>(std::move(part.mesh));
         entry->second.push_back(std::move(look));
     }

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "mesh/mesh_file.h"
 #include "sdf/element_reader.h"
 #include "sdf/ogre_materials.h"
 #include "sdf/resource_paths.h"
@@ -45,7 +46,11 @@ class LookFiles {
   private:
     std::shared_ptr<const PictureSpec> open(const std::string& path, const SourceLocation& where,
                                             const std::string& whose, Diagnostics& diagnostics);
-    std::shared_ptr<const PictureSpec> picture_of_mesh(const std::string& name, const Element& mesh,
+    /// Keeps what was read, or warns why it could not be.
+    std::shared_ptr<const PictureSpec> keep(Result<PictureSpec> picture, const std::string& path,
+                                            const SourceLocation& where, const std::string& whose,
+                                            Diagnostics& diagnostics);
+    std::shared_ptr<const PictureSpec> picture_of_mesh(MeshPicture picture, const Element& mesh,
                                                        const GeometrySpec& spec, Diagnostics& diagnostics);
 
     const OgreMaterials& scripts_in(const std::string& path);

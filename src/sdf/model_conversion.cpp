@@ -96,6 +96,21 @@ class ModelConverter {
                                        " of its links are welded to the world");
     }
 
+    /// A heightmap stands still in Gazebo, whatever its model says.
+    void fix_terrain() {
+        if (spec_.is_static || spec_.kinematic || spec_.links.size() != 1) return;
+        const auto is_heightmap = [](const CollisionSpec& collision) {
+            return collision.geometry.kind == GeometryKind::kHeightmap;
+        };
+        if (std::ranges::none_of(spec_.links[0].collisions, is_heightmap)) return;
+        spec_.is_static = true;
+        spec_.joints.clear();
+        import_.diagnostics().warning(
+            spec_.where, "movable-heightmap",
+            "model '" + spec_.name + "' is a heightmap and not static: it stands still",
+            "Write <static>true</static> in the model.");
+    }
+
     /// Links of a kinematic model hang on its base.
     void fix_kinematic_links() {
         if (kinematic_links_ > 0) judge_kinematic_links();
@@ -338,6 +353,7 @@ ModelSpec convert_model(const ReadModel& read, bool is_static, const Import& imp
     converter.convert({read.model(), "", {}, import.reader.boolean(source, "enable_wind", false)});
     converter.fix_static_links();
     converter.fix_kinematic_links();
+    converter.fix_terrain();
     return spec;
 }
 

@@ -25,6 +25,8 @@ constexpr Variable kVariables[] = {{"SDF_PATH"},
                                    {"IGN_FILE_PATH"},
                                    {"GAZEBO_MODEL_PATH"},
                                    {"GAZEBO_RESOURCE_PATH"},
+                                   {"GAZEBO_RESOURCE_PATH", "media/models"},
+                                   {"GAZEBO_RESOURCE_PATH", "Media/models"},
                                    {"ROS_PACKAGE_PATH"},
                                    {"AMENT_PREFIX_PATH", "share"}};
 constexpr int kFoldersAbove = 6;  // of the file that holds the URI

@@ -48,6 +48,24 @@ void complete(EnvironmentalSpec& spec, const Element& sensor, const std::string&
         spec.variable = type.substr(slash + 1);
 }
 
+constexpr const char* kLenses = "gnomonical|stereographic|equidistant|equisolid_angle|orthographic|custom";
+
+/// A lens that is not known draws nothing in Gazebo, but costs it no model.
+void complete_lens(SensorParameters& parameters, const Element& camera, const Import& import) {
+    const auto mend = [&](auto& spec) {
+        if constexpr (requires { spec.optics.lens; }) {
+            std::string& lens = spec.optics.lens;
+            if (is_one_of(kLenses, lens)) return;
+            import.diagnostics().warning(
+                camera.child("lens").where(), "sensor",
+                "a lens of <type> '" + lens + "' is not known; it is taken as gnomonical",
+                "Use one of " + std::string(kLenses) + ".");
+            lens = "gnomonical";
+        }
+    };
+    std::visit(mend, parameters);
+}
+
 /// Formats of pixels that are not kept, and what stands beside the block: the ThermalSensor plugin.
 void complete_camera(SensorParameters& parameters, const Element& sensor, const Element& camera,
                      const Import& import) {
@@ -62,6 +80,7 @@ void complete_camera(SensorParameters& parameters, const Element& sensor, const 
             "Use R8G8B8, B8G8R8 or L8.");
         *format = "R8G8B8";
     }
+    complete_lens(parameters, camera, import);
     auto* thermal = std::get_if<ThermalCameraSpec>(&parameters);
     if (thermal == nullptr) return;
     for (const auto node : sensor.node.children("plugin")) {

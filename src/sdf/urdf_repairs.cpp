@@ -2,10 +2,12 @@
 // place.
 #include "sdf/urdf_repairs.h"
 
+#include <algorithm>
 #include <optional>
 #include <set>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "sdf/element_reader.h"
 #include "world/joint_type.h"
@@ -92,12 +94,77 @@ void rename_joints(pugi::xml_node robot, const SourceFile& urdf, Diagnostics& di
     }
 }
 
+/// SDFormat keeps "::" for names of parts of parts.
+void rename_scoped(pugi::xml_node robot, const SourceFile& urdf, Diagnostics& diagnostics) {
+    const std::pair<const char*, const char*> users[] = {{"link", "name"},   {"joint", "name"},
+                                                         {"parent", "link"}, {"child", "link"},
+                                                         {"mimic", "joint"}, {"gazebo", "reference"}};
+    std::string first;
+    const auto rename = [&](pugi::xml_node node) {
+        for (const auto& [element, attribute] : users) {
+            if (std::string_view(node.name()) != element) continue;
+            std::string name = node.attribute(attribute).value();
+            if (name.find("::") == std::string::npos) continue;
+            if (first.empty()) first = name;
+            for (std::size_t at = 0; (at = name.find("::", at)) != std::string::npos;)
+                name.replace(at, 2, "__");
+            node.attribute(attribute).set_value(name.c_str());
+        }
+    };
+    for (const auto part : robot.children()) {
+        rename(part);
+        for (const auto inner : part.children()) rename(inner);
+    }
+    if (!first.empty())
+        diagnostics.warning(urdf.where(urdf.root()), "renamed",
+                            "names with '::' ('" + first +
+                                "') are written with '__' here: SDFormat keeps '::' for nested models",
+                            "Give links and joints names without '::'.");
+}
+
+bool is_visible(pugi::xml_node link) {
+    return link.child("collision") || link.child("visual");
+}
+
+bool moves(pugi::xml_node joint) {
+    return std::string_view(joint.attribute("type").value()) != "fixed";
+}
+
+bool has_mass(pugi::xml_node link) {
+    const auto mass = link.child("inertial").child("mass").attribute("value");
+    return mass && parse_number(mass.value()) != 0.0;
+}
+
+/// Without a mass anywhere nothing moves: a table, a plane. PyBullet has them as scenery.
+void make_scenery(pugi::xml_node robot, const SourceFile& urdf, Diagnostics& diagnostics) {
+    const auto links = robot.children("link"), joints = robot.children("joint");
+    if (std::any_of(joints.begin(), joints.end(), moves) ||
+        std::any_of(links.begin(), links.end(), has_mass) ||
+        std::none_of(links.begin(), links.end(), is_visible))
+        return;
+    for (auto link : links) {
+        if (std::string_view(link.attribute("name").value()) == "world") continue;
+        link.remove_child("inertial");
+        auto inertial = link.append_child("inertial");
+        inertial.append_child("mass").append_attribute("value") = 1;
+        auto inertia = inertial.append_child("inertia");
+        for (const char* moment : {"ixx", "iyy", "izz"}) inertia.append_attribute(moment) = 1;
+        for (const char* product : {"ixy", "ixz", "iyz"}) inertia.append_attribute(product) = 0;
+    }
+    robot.append_child("gazebo").append_child("static").text() = "true";
+    diagnostics.warning(urdf.where(urdf.root().child("link")), "no-inertial",
+                        "no link has mass, and no joint moves: the model stands still, as scenery",
+                        "Give each link an <inertial> with <mass> and <inertia> if it shall move.");
+}
+
 }  // namespace
 
 void repair_urdf(pugi::xml_node robot, const SourceFile& urdf, Diagnostics& diagnostics) {
     mend_version(robot, urdf, diagnostics);
+    make_scenery(robot, urdf, diagnostics);
     mend_inertials(robot, urdf, diagnostics);
     drop_empty_inertials(robot);
+    rename_scoped(robot, urdf, diagnostics);
     rename_joints(robot, urdf, diagnostics);
 }
 

@@ -14,7 +14,9 @@ namespace roboss::sdf_import {
 /// In a copy of the <robot> of `urdf`, each with a warning:
 /// - numbers of an <inertial> with white space or text behind them become those numbers;
 /// - an inertial with a mass but without moments gets moments of 0, which compile() mends;
-/// - a joint with the name of a link gets "_joint" behind it: SDFormat has one set of names for both.
+/// - a joint with the name of a link gets "_joint" behind it: SDFormat has one set of names for both;
+/// - "::" in names becomes "__": SDFormat keeps it for nested models;
+/// - a robot without mass and without a joint that moves becomes a static model.
 void repair_urdf(pugi::xml_node robot, const SourceFile& urdf, Diagnostics& diagnostics);
 
 /// Joints whose type SDFormat lacks (<roboss:joint>), by name. libsdformat would leave them out: in `robot`

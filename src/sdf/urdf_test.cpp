@@ -108,6 +108,36 @@ TEST(Urdf, SaysWhichLinksHaveNoInertial) {
     EXPECT_FALSE(load_text(kArm, "arm.urdf").diagnostics.count(Severity::kWarning));
 }
 
+TEST(Urdf, ARobotWithoutMassAndMotionIsScenery) {
+    for (const std::string inertial : {"", "<inertial><mass value='0'/></inertial>"}) {
+        const std::string table =
+            "<robot name='table'>\n<link name='top'>" + inertial +
+            "<collision><geometry><box size='1 1 0.1'/></geometry></collision></link>"
+            "<link name='leg'>" +
+            inertial +
+            "<collision><geometry><box size='.1 .1 1'/></geometry></collision></link>"
+            "<joint name='j' type='fixed'><parent link='top'/><child link='leg'/></joint></robot>";
+        const Loaded loaded = load_text(table, "table.urdf");
+        ASSERT_TRUE(loaded.world) << loaded.text();
+        EXPECT_TRUE(loaded.world->prototypes.at(0).is_static);
+        EXPECT_EQ(loaded.world->prototypes.at(0).links.at(0).collisions.size(), 2u);
+        EXPECT_NE(loaded.text().find("table.urdf:2: warning"), std::string::npos) << loaded.text();
+        EXPECT_EQ(loaded.diagnostics.items().size(), 1u) << loaded.text();
+    }
+    EXPECT_TRUE(load_text("<robot name='r'><link name='a'/></robot>", "r.urdf").diagnostics.has_errors())
+        << "nothing to see and nothing to touch";
+}
+
+TEST(Urdf, NamesWithDoubleColonsAreWrittenOtherwise) {
+    std::string arm = kArm;
+    for (std::size_t at = 0; (at = arm.find("upper", at)) != std::string::npos; at += 12)
+        arm.replace(at, 5, "arm::upper");
+    const Loaded loaded = load_text(arm, "arm.urdf");
+    ASSERT_TRUE(loaded.world) << loaded.text();
+    EXPECT_NE(loaded.find("renamed"), nullptr) << loaded.text();
+    EXPECT_EQ(loaded.world->prototypes.at(0).links.at(1).name, "arm__upper");
+}
+
 TEST(Urdf, LinksAtFixedJointsBecomeFrames) {
     std::string arm = kArm;
     arm.insert(
