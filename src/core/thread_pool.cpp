@@ -3,15 +3,19 @@
 
 #include <algorithm>
 #include <chrono>
+#include <new>
 #include <system_error>
 
 namespace roboss {
 
 ThreadPool::ThreadPool(unsigned threads) {
+    if (threads > 1) workers_.reserve(threads - 1);
     for (unsigned i = 1; i < threads; ++i) {
         try {
             workers_.emplace_back([this, i] { serve(i); });
         } catch (const std::system_error&) {
+            break;
+        } catch (const std::bad_alloc&) {
             break;
         }
     }

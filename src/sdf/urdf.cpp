@@ -170,13 +170,17 @@ std::string first_of(const std::vector<std::string>& names) {
 }
 
 /// libsdformat leaves out a moving link without mass, and all that hangs on it, silently; so it does with
-/// what moves on a link without mass that a fixed joint merges. False: nothing is left.
-bool report_lost_links(const SourceFile& urdf, const std::string& sdf, Diagnostics& diagnostics) {
+/// what moves on a link without mass that a fixed joint merges. `robot`: repaired, with the same links in the
+/// same order. False: nothing is left.
+bool report_lost_links(const SourceFile& urdf, pugi::xml_node robot, const std::string& sdf,
+                       Diagnostics& diagnostics) {
     std::vector<std::string> without, lost;
     SourceLocation where;
+    auto repaired = robot.child("link");
     for (const auto link : urdf.root().children("link")) {
-        const std::string name = link.attribute("name").value();
-        if (name == "world" || has_link(sdf, name)) continue;
+        const std::string name = link.attribute("name").value(), now = repaired.attribute("name").value();
+        repaired = repaired.next_sibling("link");
+        if (name == "world" || has_link(sdf, now)) continue;
         if (lost.empty()) where = urdf.where(link);
         lost.push_back(name);
         if (link.child("inertial")) continue;
@@ -203,11 +207,15 @@ bool report_lost_links(const SourceFile& urdf, const std::string& sdf, Diagnosti
 }
 
 /// For each line of the SDF the line of the URDF link or joint it came from (the robot's until the first).
-std::vector<int> map_lines(const SourceFile& urdf, const std::string& sdf) {
+/// `robot`: repaired, with the same parts in the same order.
+std::vector<int> map_lines(const SourceFile& urdf, pugi::xml_node robot, const std::string& sdf) {
     std::map<std::string, int> line_of;
+    auto repaired = robot.first_child();
     for (const auto node : urdf.root().children()) {
         if (node.attribute("name"))
-            line_of.emplace(std::string(node.name()) + " " + node.attribute("name").value(), urdf.line(node));
+            line_of.emplace(std::string(node.name()) + " " + repaired.attribute("name").value(),
+                            urdf.line(node));
+        repaired = repaired.next_sibling();
     }
     std::vector<int> lines;
     int line = urdf.line(urdf.root());
@@ -295,11 +303,11 @@ std::unique_ptr<SourceFile> urdf_to_sdf(const SourceFile& urdf, Diagnostics& dia
         return nullptr;
     }
     add_merged_links(robot, text);
-    if (!report_lost_links(urdf, text, diagnostics)) return nullptr;
+    if (!report_lost_links(urdf, robot, text, diagnostics)) return nullptr;
     add_mimics(robot, text);
     add_joint_types(joint_types, text);
     add_views(views, text);
-    std::vector<int> lines = map_lines(urdf, text);
+    std::vector<int> lines = map_lines(urdf, robot, text);
     return SourceFile::from_text(urdf.path(), std::move(text), std::move(lines), diagnostics);
 }
 

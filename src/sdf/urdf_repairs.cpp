@@ -3,6 +3,7 @@
 #include "sdf/urdf_repairs.h"
 
 #include <algorithm>
+#include <map>
 #include <optional>
 #include <set>
 #include <string>
@@ -94,32 +95,45 @@ void rename_joints(pugi::xml_node robot, const SourceFile& urdf, Diagnostics& di
     }
 }
 
-/// SDFormat keeps "::" for names of parts of parts.
+/// Names of links and joints with "::", which SDFormat keeps for parts of parts, and what they become.
+std::map<std::string, std::string> unscoped_names(pugi::xml_node robot) {
+    std::set<std::string> taken;
+    for (const auto part : robot.children()) taken.insert(part.attribute("name").value());
+    std::map<std::string, std::string> names;
+    for (const auto part : robot.children()) {
+        const std::string name = part.attribute("name").value();
+        if (name.find("::") == std::string::npos || names.contains(name)) continue;
+        std::string other = name;
+        for (std::size_t at = 0; (at = other.find("::", at)) != std::string::npos;)
+            other.replace(at, 2, "__");
+        while (!taken.insert(other).second) other += "_";
+        names.emplace(name, other);
+    }
+    return names;
+}
+
 void rename_scoped(pugi::xml_node robot, const SourceFile& urdf, Diagnostics& diagnostics) {
     const std::pair<const char*, const char*> users[] = {{"link", "name"},   {"joint", "name"},
                                                          {"parent", "link"}, {"child", "link"},
                                                          {"mimic", "joint"}, {"gazebo", "reference"}};
-    std::string first;
+    const std::map<std::string, std::string> names = unscoped_names(robot);
+    if (names.empty()) return;
     const auto rename = [&](pugi::xml_node node) {
         for (const auto& [element, attribute] : users) {
             if (std::string_view(node.name()) != element) continue;
-            std::string name = node.attribute(attribute).value();
-            if (name.find("::") == std::string::npos) continue;
-            if (first.empty()) first = name;
-            for (std::size_t at = 0; (at = name.find("::", at)) != std::string::npos;)
-                name.replace(at, 2, "__");
-            node.attribute(attribute).set_value(name.c_str());
+            const auto found = names.find(node.attribute(attribute).value());
+            if (found != names.end()) node.attribute(attribute).set_value(found->second.c_str());
         }
     };
     for (const auto part : robot.children()) {
         rename(part);
         for (const auto inner : part.children()) rename(inner);
     }
-    if (!first.empty())
-        diagnostics.warning(urdf.where(urdf.root()), "renamed",
-                            "names with '::' ('" + first +
-                                "') are written with '__' here: SDFormat keeps '::' for nested models",
-                            "Give links and joints names without '::'.");
+    const auto& [first, other] = *names.begin();
+    diagnostics.warning(urdf.where(urdf.root()), "renamed",
+                        "names with '::' are written otherwise here ('" + first + "' is '" + other +
+                            "'): SDFormat keeps '::' for nested models",
+                        "Give links and joints names without '::'.");
 }
 
 bool is_visible(pugi::xml_node link) {

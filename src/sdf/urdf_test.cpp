@@ -135,7 +135,24 @@ TEST(Urdf, NamesWithDoubleColonsAreWrittenOtherwise) {
     const Loaded loaded = load_text(arm, "arm.urdf");
     ASSERT_TRUE(loaded.world) << loaded.text();
     EXPECT_NE(loaded.find("renamed"), nullptr) << loaded.text();
+    EXPECT_EQ(loaded.diagnostics.items().size(), 1u) << loaded.text();
     EXPECT_EQ(loaded.world->prototypes.at(0).links.at(1).name, "arm__upper");
+    EXPECT_EQ(loaded.world->prototypes.at(0).links.at(1).where.line,
+              load_text(kArm, "arm.urdf").world->prototypes.at(0).links.at(1).where.line);
+}
+
+TEST(Urdf, ANameWithDoubleColonsGetsOneThatIsFree) {
+    const std::string box =
+        "<inertial><mass value='1'/><inertia ixx='1' iyy='1' izz='1' ixy='0' ixz='0' iyz='0'/></inertial>";
+    const Loaded loaded =
+        load_text("<robot name='r'><link name='a__b'>" + box + "</link><link name='a::b'>" + box +
+                      "</link><joint name='j' type='continuous'><parent link='a__b'/>"
+                      "<child link='a::b'/></joint></robot>",
+                  "r.urdf");
+    ASSERT_TRUE(loaded.world) << loaded.text();
+    EXPECT_EQ(loaded.world->prototypes.at(0).links.at(0).name, "a__b");
+    EXPECT_EQ(loaded.world->prototypes.at(0).links.at(1).name, "a__b_");
+    EXPECT_EQ(loaded.world->prototypes.at(0).joints.at(0).child, "a__b_");
 }
 
 TEST(Urdf, LinksAtFixedJointsBecomeFrames) {
