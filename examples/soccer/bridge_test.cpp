@@ -1,8 +1,11 @@
 // FIRASim's messages, as its published classes write them, and a team that drives a robot over UDP.
 #include <gtest/gtest.h>
+#include <unistd.h>
 
+#include <cmath>
 #include <cstdlib>
 #include <memory>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -12,6 +15,7 @@
 #include "sdf/load_world.h"
 #include "simulation/simulation.h"
 #include "team_socket.h"
+#include "udp.h"
 
 namespace soccer {
 namespace {
@@ -62,6 +66,29 @@ TEST(FiraSim, DamagedBytesAreNoPacketAndNeverCrash) {
             }
         }
     EXPECT_FALSE(firasim::packet_of(kCommands.substr(0, kCommands.size() - 1)));
+}
+
+TEST(FiraSim, AnAngleFarBeyondATurnIsRefused) {
+    messages::FiraPacket message;
+    messages::FiraRobot& robot = *message.mutable_replace()->add_robots()->mutable_position();
+    robot.set_orientation(-1e5);
+    EXPECT_TRUE(firasim::packet_of(message.SerializeAsString()));
+    for (const double angle : {1e7, -1e300, HUGE_VAL}) {
+        robot.set_orientation(angle);
+        EXPECT_FALSE(firasim::packet_of(message.SerializeAsString())) << angle;
+    }
+}
+
+TEST(Udp, AnAddressThatIsNoneLeavesNoSocketOpen) {
+    const auto lowest_free = [] {
+        const int descriptor = ::dup(0);
+        ::close(descriptor);
+        return descriptor;
+    };
+    const int before = lowest_free();
+    EXPECT_THROW(UdpReceiver({"nonsense", 20011}), std::runtime_error);
+    EXPECT_THROW(UdpSender({"nonsense", 20011}, {"127.0.0.1", 20011}), std::runtime_error);
+    EXPECT_EQ(lowest_free(), before);
 }
 
 TEST(Bridge, ATeamElsewhereDrivesARobotAndSeesIt) {

@@ -43,7 +43,7 @@ std::optional<Packet> packet_of(std::string_view bytes) {
     }
     for (const messages::FiraRobotReplacement& one : message.replace().robots()) {
         const messages::FiraRobot& at = one.position();
-        if (!are_finite({at.x(), at.y(), at.orientation()})) return std::nullopt;
+        if (!are_finite({at.x(), at.y()}) || !is_angle(at.orientation())) return std::nullopt;
         packet.robots.push_back(
             {team_of(one.yellowteam()), at.robot_id(), {at.x(), at.y(), at.orientation()}});
     }

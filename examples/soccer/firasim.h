@@ -39,7 +39,7 @@ struct Packet {
     std::optional<BallPlacement> ball;
 };
 
-/// Nothing if the bytes are no Packet.
+/// Nothing if the bytes are no Packet, or a number in it is not finite or no angle (is_angle).
 std::optional<Packet> packet_of(std::string_view bytes);
 
 struct Environment {

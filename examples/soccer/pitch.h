@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <optional>
 #include <string>
 #include <vector>
@@ -19,6 +20,12 @@ inline Team other(Team team) {
 }
 inline const char* name_of(Team team) {
     return team == Team::kBlue ? "blue" : "yellow";
+}
+
+/// Whether a number from the network is an angle: finite and at most 1e6 rad. Sine and cosine convert the
+/// quadrant to an integer, which has no room for far greater ones.
+inline bool is_angle(double rad) {
+    return std::fabs(rad) <= 1e6;
 }
 
 inline constexpr double kFrame = 1.0 / 60;  // s, between two looks of a team at the field

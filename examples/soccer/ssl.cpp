@@ -47,7 +47,7 @@ bool is_finite(const Packet& packet) {
     for (const Command& c : packet.commands)
         if (!is_finite(c)) return false;
     for (const Placement& p : packet.robots)
-        if (!all_finite(p.x, p.y, p.yaw, p.vx, p.vy, p.turn)) return false;
+        if (!all_finite(p.x, p.y, p.vx, p.vy, p.turn) || !is_angle(p.yaw.value_or(0))) return false;
     const auto& b = packet.ball;
     return !b || all_finite(b->x, b->y, b->z, b->vx, b->vy, b->vz);
 }
@@ -232,6 +232,7 @@ std::optional<Packet> packet_of_grsim(std::string_view bytes) {
     if (message.replacement().has_ball()) {
         const auto& ball = message.replacement().ball();
         BallPlacement& b = packet.ball.emplace();
+        b.z = 0;  // on the ground, as grSim puts it
         if (ball.has_x()) b.x = ball.x();
         if (ball.has_y()) b.y = ball.y();
         b.vx = ball.vx(), b.vy = ball.vy();
@@ -243,7 +244,10 @@ std::optional<Packet> packet_of_robot_control(std::string_view bytes, Team team)
     messages::RobotControl message;
     if (!parse(bytes, message)) return std::nullopt;
     Packet packet;
-    for (const auto& one : message.robot_commands()) packet.commands.push_back(command_of(one, team));
+    for (const auto& one : message.robot_commands()) {
+        if (!is_angle(one.kick_angle() * kDegree)) return std::nullopt;
+        packet.commands.push_back(command_of(one, team));
+    }
     return checked(std::move(packet));
 }
 

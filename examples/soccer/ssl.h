@@ -44,7 +44,7 @@ struct Command {
     std::optional<double> dribbler;      // rad/s
 };
 
-/// Where a robot is put; what is missing stays as it is.
+/// Where a robot is put; a coordinate that is missing stays as it is.
 struct Placement {
     Team team = Team::kBlue;
     std::uint32_t robot = 0;
@@ -71,7 +71,7 @@ struct Packet {
     std::vector<Problem> problems;
 };
 
-// Nothing if the bytes are no such message, or a number in it is not finite.
+// Nothing if the bytes are no such message, or a number in it is not finite or no angle (is_angle).
 std::optional<Packet> packet_of_grsim(std::string_view bytes);                     // grSim_Packet
 std::optional<Packet> packet_of_robot_control(std::string_view bytes, Team team);  // RobotControl
 std::optional<Packet> packet_of_simulator(std::string_view bytes);                 // SimulatorCommand

@@ -50,7 +50,7 @@ class SslBridge final : public roboss::ControlProgram {
     void open_sockets();
     void find_robots(const roboss::Client& client);
     void receive(roboss::Client& client);
-    void complain(const std::string& what);
+    void complain(const std::string& subject, const std::string& what);
     RobotMemory* robot(Team team, std::uint32_t number);
     void follow(roboss::Client& client, const ssl::Packet& packet);
     void obey(roboss::Client& client, const ssl::Command& command, RobotMemory& robot);
@@ -70,7 +70,7 @@ class SslBridge final : public roboss::ControlProgram {
     std::unique_ptr<UdpSender> vision_;
     std::deque<std::pair<double, std::string>> images_;  // when they are sent, s
     std::uint32_t frame_ = 0;
-    std::set<std::string> complaints_;
+    std::set<std::string> complaints_;  // their subjects: a few, whatever the network sends
 };
 
 void SslBridge::start(roboss::Client& client) {
@@ -126,8 +126,10 @@ void SslBridge::open_sockets() {
         vision.text().c_str());
 }
 
-void SslBridge::complain(const std::string& what) {
-    if (complaints_.insert(what).second) std::fprintf(stderr, "soccer bridge: %s: ignored\n", what.c_str());
+/// Once for each subject.
+void SslBridge::complain(const std::string& subject, const std::string& what) {
+    if (complaints_.insert(subject).second)
+        std::fprintf(stderr, "soccer bridge: %s: ignored\n", what.c_str());
 }
 
 void SslBridge::control(roboss::Client& client) {
@@ -142,7 +144,7 @@ void SslBridge::receive(roboss::Client& client) {
         if (const auto packet = ssl::packet_of_grsim(*datagram))
             follow(client, *packet);
         else
-            complain("a datagram is no grSim_Packet");
+            complain("grSim", "a datagram is no grSim_Packet");
     }
     while (const auto datagram = simulator_->receive()) {
         const auto packet = ssl::packet_of_simulator(*datagram);
@@ -176,7 +178,8 @@ void SslBridge::follow(roboss::Client& client, const ssl::Packet& packet) {
         if (RobotMemory* one = robot(command.team, command.robot))
             obey(client, command, *one);
         else
-            complain("there is no robot " + std::to_string(command.robot) + " of " + name_of(command.team));
+            complain(name_of(command.team),
+                     "there is no robot " + std::to_string(command.robot) + " of " + name_of(command.team));
     }
     for (const ssl::Placement& placement : packet.robots)
         if (const RobotMemory* one = robot(placement.team, placement.robot)) put(client, placement, *one);
@@ -254,7 +257,7 @@ void SslBridge::put(roboss::Client& client, const ssl::Placement& placement, con
 void SslBridge::put_ball(roboss::Client& client, const ssl::BallPlacement& placement) const {
     const roboss::Vec3 p = client.pose(pitch_.ball, roboss::LinkId(0u)).p;
     (void)client.set_pose(pitch_.ball, {{placement.x.value_or(p.x), placement.y.value_or(p.y),
-                                         std::max(placement.z.value_or(0), kBallRadius)},
+                                         std::max(placement.z.value_or(p.z), kBallRadius)},
                                         {}});
     const double spin = placement.rolls ? 1 / kBallRadius : 0;
     (void)client.set_velocity(pitch_.ball, {placement.vx, placement.vy, placement.vz},

@@ -7,7 +7,8 @@ league's simulation protocol over UDP. It knows nothing of RoBOSS, and plays in 
 Needs protoc (Debian: protobuf-compiler) and the Python package protobuf. Blue plays towards +x.
 """
 import argparse
-import importlib
+import importlib.util
+import ipaddress
 import math
 import socket
 import struct
@@ -17,13 +18,37 @@ import tempfile
 from pathlib import Path
 
 
+class SetupError(Exception):
+    """Something that the program needs is missing; the text has a remedy."""
+
+
 def load_messages():
-    """The classes that protoc makes of messages/ssl.proto."""
-    folder = tempfile.mkdtemp()
+    """The classes that protoc makes of messages/ssl.proto; raises SetupError."""
     source = Path(__file__).resolve().parent / "messages"
-    subprocess.run(["protoc", f"--proto_path={source}", f"--python_out={folder}", "ssl.proto"], check=True)
-    sys.path.insert(0, folder)
-    return importlib.import_module("ssl_pb2")
+    with tempfile.TemporaryDirectory() as folder:
+        try:
+            subprocess.run(["protoc", f"--proto_path={source}", f"--python_out={folder}", "ssl.proto"], check=True)
+        except (OSError, subprocess.CalledProcessError) as error:
+            raise SetupError(f"protoc does not run: {error}\n  remedy: install it (Debian: protobuf-compiler)") from None
+        spec = importlib.util.spec_from_file_location("ssl_pb2", Path(folder) / "ssl_pb2.py")
+        messages = importlib.util.module_from_spec(spec)
+        try:
+            spec.loader.exec_module(messages)
+        except Exception as error:  # ImportError, TypeError or protobuf's VersionError: it depends on the two versions
+            raise SetupError(f"the Python package protobuf is missing or does not fit protoc: {error}\n"
+                             "  remedy: pip install --upgrade protobuf") from None
+    return messages
+
+
+def packet_of(messages, data):
+    """The packet of ssl-vision; None if the bytes are none, or the heading of a robot is not finite."""
+    from google.protobuf.message import DecodeError  # here, because load_messages reports a missing package
+    try:
+        packet = messages.SSL_WrapperPacket.FromString(data)
+    except DecodeError:
+        return None
+    robots = [*packet.detection.robots_blue, *packet.detection.robots_yellow]
+    return packet if packet.IsInitialized() and all(math.isfinite(r.orientation) for r in robots) else None
 
 
 def vision_socket(address, port, interface):
@@ -37,13 +62,13 @@ def vision_socket(address, port, interface):
     return result
 
 
-def newest(sock):
-    """The last datagram that has arrived; waits for one."""
-    data = sock.recv(65536)
+def arrived(sock):
+    """The datagrams that have arrived, oldest first; waits for one."""
+    data = [sock.recv(65536)]
     sock.setblocking(False)
     try:
         while True:
-            data = sock.recv(65536)
+            data.append(sock.recv(65536))
     except BlockingIOError:
         return data
     finally:
@@ -60,11 +85,22 @@ class Team:
     def __init__(self, messages, yellow):
         self.messages, self.yellow = messages, yellow
         self.side = -1 if yellow else 1
-        self.half_length = 4.5
+        # Division B, until the geometry comes.
+        self.half_length, self.half_width, self.half_goal = 4.5, 3.0, 0.5
+        self.area_depth, self.area_half = 1.0, 1.0  # the penalty area: along x, along y
+
+    def measure(self, field):
+        """Takes the lengths of the geometry; old ones have no penalty area."""
+        self.half_length, self.half_width = field.field_length / 2000, field.field_width / 2000
+        self.half_goal = field.goal_width / 2000
+        if field.HasField("penalty_area_depth") and field.HasField("penalty_area_width"):
+            self.area_depth, self.area_half = field.penalty_area_depth / 1000, field.penalty_area_width / 2000
 
     def look(self, packet):
         if packet.HasField("geometry"):
-            self.half_length = packet.geometry.field.field_length / 2000
+            self.measure(packet.geometry.field)
+        if not packet.HasField("detection"):
+            return
         frame, s = packet.detection, self.side / 1000
         own, others = frame.robots_blue, frame.robots_yellow
         if self.yellow:
@@ -95,7 +131,7 @@ class Team:
         """Behind the ball, to it with a turning dribbler, with it towards the goal, and a kick where the goal is free."""
         bx, by = self.ball
         keeper = min(self.others, key=lambda r: math.hypot(r[0] - self.half_length, r[1]), default=(0, 0))
-        aim = -0.3 if keeper[1] > 0 else 0.3
+        aim = (-0.6 if keeper[1] > 0 else 0.6) * self.half_goal
         heading = math.atan2(aim - by, self.half_length - bx)
         ux, uy = math.cos(heading), math.sin(heading)
         along = (bx - robot[0]) * ux + (by - robot[1]) * uy
@@ -112,20 +148,22 @@ class Team:
     def commands(self):
         control = self.messages.RobotControl()
         bx, by = self.ball
+        area_x = self.area_depth - self.half_length  # the line before the own penalty area
         field = [i for i in self.own if i != 0]
         attacker = min(field, key=lambda i: math.hypot(self.own[i][0] - bx + 0.2, self.own[i][1] - by), default=None)
         for number, robot in sorted(self.own.items()):
             command = control.robot_commands.add(id=number, dribbler_speed=0)
-            if number == 0 and bx < 0.8 - self.half_length and abs(by) < 1:  # the goalkeeper clears the ball
+            if number == 0 and bx < area_x - 0.2 and abs(by) < self.area_half:  # the goalkeeper clears the ball
                 self.attack(command, robot)
             elif number == 0:  # and stands between ball and goal otherwise
-                y = max(-0.4, min(0.4, by * 0.6 / max(bx + self.half_length, 0.6)))
+                reach = self.half_goal - 0.1
+                y = max(-reach, min(reach, by * 0.6 / max(bx + self.half_length, 0.6)))
                 self.drive(command, robot, -self.half_length + 0.15, y, 0, 2)
             elif number == attacker:
                 self.attack(command, robot)
             else:  # the others fall back in a line between ball and own goal
                 place = sorted(i for i in field if i != attacker).index(number)
-                x = max(-self.half_length + 1.3, min(bx - 1.2 - 0.5 * (place % 2), self.half_length - 2))
+                x = max(area_x + 0.3, min(bx - 1.2 - 0.5 * (place % 2), self.half_length - 2))
                 self.drive(command, robot, x, 1.1 * (place - (len(field) - 2) / 2), math.atan2(by - robot[1], bx - robot[0]))
         return control
 
@@ -142,8 +180,8 @@ class Referee:
         x, y = team.side * team.ball[0], team.side * team.ball[1]
         if math.hypot(x - self.rest[0], y - self.rest[1]) > 0.05:
             self.rest, self.moved = (x, y), time
-        in_goal = abs(x) > team.half_length + 0.03 and abs(y) < 0.5
-        if abs(x) < team.half_length + 0.03 and abs(y) < 3.03:
+        in_goal = abs(x) > team.half_length + 0.03 and abs(y) < team.half_goal
+        if abs(x) < team.half_length + 0.03 and abs(y) < team.half_width + 0.03:
             self.inside = time
         if time < self.placed + 1 or not (in_goal or time > self.inside + 0.5 or time > self.moved + 5):
             return
@@ -157,33 +195,79 @@ class Referee:
         self.placed = self.inside = self.moved = time
 
 
-def main():
+def ipv4(text):
+    try:
+        return str(ipaddress.IPv4Address(text))
+    except ValueError:
+        raise argparse.ArgumentTypeError(f"'{text}' is no IPv4 address; give, for example, 127.0.0.1") from None
+
+
+def port(text):
+    if not (text.isdecimal() and 1 <= int(text) <= 65535):
+        raise argparse.ArgumentTypeError(f"'{text}' is no port; give a number from 1 to 65535")
+    return int(text)
+
+
+def endpoint(text):
+    """(address, port) of ADDRESS:PORT."""
+    if ":" not in text:
+        raise argparse.ArgumentTypeError(f"'{text}' is no ADDRESS:PORT; give, for example, 224.5.23.2:10020")
+    address, number = text.rsplit(":", 1)
+    return ipv4(address), port(number)
+
+
+def options():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("team", choices=["blue", "yellow"])
-    parser.add_argument("--simulator", default="127.0.0.1", help="address of the simulator (default %(default)s)")
-    parser.add_argument("--port", type=int, help="of the team's commands (default: 10301 blue, 10302 yellow)")
-    parser.add_argument("--vision", default="224.5.23.2:10020", help="where ssl-vision sends to (default %(default)s)")
-    parser.add_argument("--interface", default="127.0.0.1", help="that vision comes in at (default %(default)s)")
+    parser.add_argument("--simulator", type=ipv4, default="127.0.0.1", help="address of the simulator (default %(default)s)")
+    parser.add_argument("--port", type=port, help="of the team's commands (default: 10301 blue, 10302 yellow)")
+    parser.add_argument("--vision", type=endpoint, default="224.5.23.2:10020",
+                        help="where ssl-vision sends to (default %(default)s)")
+    parser.add_argument("--interface", type=ipv4, default="127.0.0.1", help="that vision comes in at (default %(default)s)")
     parser.add_argument("--referee", action="store_true", help="count goals and put the ball back on the field")
-    args = parser.parse_args()
-    messages = load_messages()
-    group, port = args.vision.rsplit(":", 1)
-    eyes = vision_socket(group, int(port), args.interface)
+    return parser.parse_args()
+
+
+def play(messages, eyes, args):
+    """Until it is interrupted."""
     mouth = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
     to = (args.simulator, args.port or (10302 if args.team == "yellow" else 10301))
     team = Team(messages, args.team == "yellow")
     referee = Referee(messages, (args.simulator, 10300)) if args.referee else None
+    complained = False
     while True:
-        packet = messages.SSL_WrapperPacket.FromString(newest(eyes))
-        if packet.HasField("detection"):
+        frame = None
+        for data in arrived(eyes):
+            packet = packet_of(messages, data)
+            if packet is None:
+                if not complained:
+                    print(f"ssl_team: a datagram of {len(data)} bytes is no packet of ssl-vision: ignored", file=sys.stderr)
+                complained = True
+                continue
             team.look(packet)
+            frame = packet.detection if packet.HasField("detection") else frame
+        if frame:
             if referee:
-                referee.look(team, packet.detection.t_capture, mouth)
+                referee.look(team, frame.t_capture, mouth)
             mouth.sendto(team.commands().SerializeToString(), to)
+
+
+def main():
+    args = options()
+    try:
+        messages = load_messages()
+        play(messages, vision_socket(*args.vision, args.interface), args)
+    except SetupError as error:
+        print(f"ssl_team: {error}", file=sys.stderr)
+    except OSError as error:
+        print(f"ssl_team: the network refuses: {error.strerror}\n"
+              "  remedy: check --vision (a multicast group or an address of this computer, a free port), --interface and "
+              "--simulator", file=sys.stderr)
+    return 2
 
 
 if __name__ == "__main__":
     try:
-        main()
+        sys.exit(main())
     except KeyboardInterrupt:
         pass

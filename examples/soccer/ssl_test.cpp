@@ -4,7 +4,9 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
+#include <cstdint>
 #include <cstdlib>
 #include <functional>
 #include <memory>
@@ -63,6 +65,7 @@ TEST(SslMessages, ReplacementsOfGrSimAreRead) {
     ASSERT_TRUE(packet->ball);
     EXPECT_EQ(packet->ball->y.value(), -1);
     EXPECT_EQ(packet->ball->vx, 2);
+    EXPECT_EQ(packet->ball->z.value(), 0) << "grSim puts it on the ground";
 }
 
 TEST(SslMessages, CommandsOfTheSimulationProtocolAreRead) {
@@ -113,6 +116,28 @@ TEST(SslMessages, DamagedBytesNeverCrashAndNumbersAreFinite) {
                         EXPECT_TRUE(std::isfinite(placement.x.value_or(0)));
                 }
             }
+}
+
+TEST(SslMessages, AnAngleFarBeyondATurnIsRefused) {
+    messages::RobotControl control;
+    messages::RobotCommand& kick = *control.add_robot_commands();
+    kick.set_id(1), kick.set_kick_speed(1);
+    messages::SimulatorCommand simulator;
+    messages::TeleportRobot& turn = *simulator.mutable_control()->add_teleport_robot();
+    turn.mutable_id()->set_id(1);
+    messages::grSim_Packet grsim;
+    messages::grSim_RobotReplacement& robot = *grsim.mutable_replacement()->add_robots();
+    robot.set_x(0), robot.set_y(0), robot.set_id(1), robot.set_yellowteam(false);
+    const auto taken = [&](double angle) {
+        kick.set_kick_angle(static_cast<float>(angle)), turn.set_orientation(static_cast<float>(angle));
+        robot.set_dir(angle);
+        return std::array{ssl::packet_of_robot_control(control.SerializeAsString(), Team::kBlue).has_value(),
+                          ssl::packet_of_simulator(simulator.SerializeAsString()).has_value(),
+                          ssl::packet_of_grsim(grsim.SerializeAsString()).has_value()};
+    };
+    EXPECT_EQ(taken(-1e5), (std::array{true, true, true}));
+    for (const double angle : {1e8, -1e30, HUGE_VAL})
+        EXPECT_EQ(taken(angle), (std::array{false, false, false})) << angle;
 }
 
 TEST(SslKinematics, WheelsGiveTheVelocityBackAndAllTurnAlikeOnTheSpot) {
@@ -237,6 +262,32 @@ TEST(SslBridge, ATeamOfGrSimMovesSidewaysWithoutTurning) {
     EXPECT_NEAR(match.blue(1).x(), -200, 20);
     EXPECT_NEAR(match.blue(1).orientation(), 0, 0.03);
     EXPECT_EQ(match.seen.detection().robots_yellow_size(), 6);
+}
+
+TEST(SslBridge, ABallKeepsTheCoordinatesThatAreMissing) {
+    SslMatch match;
+    messages::SimulatorCommand put;
+    messages::TeleportBall& ball = *put.mutable_control()->mutable_teleport_ball();
+    ball.set_x(1), ball.set_y(0.5F), ball.set_z(1);
+    match.send_until(put.SerializeAsString(), match.control_port(),
+                     [&] { return match.seen.has_detection() && match.ball().z() > 900; });
+    ball.Clear(), ball.set_x(2);
+    match.send_until(put.SerializeAsString(), match.control_port(), [&] { return match.ball().x() > 1500; });
+    EXPECT_NEAR(match.ball().y(), 500, 2);
+    EXPECT_GT(match.ball().z(), 500);
+}
+
+TEST(SslBridge, RobotsThatAreMissingAreReportedOncePerTeam) {
+    SslMatch match;
+    messages::RobotControl control;
+    for (std::uint32_t number = 100; number < 200; ++number) control.add_robot_commands()->set_id(number);
+    testing::internal::CaptureStderr();
+    match.send_until(control.SerializeAsString(), match.control_port() + 1,
+                     [&] { return match.response.feedback_size() == 6; });
+    const std::string said = testing::internal::GetCapturedStderr();
+    const std::size_t first = said.find("there is no robot 100 of blue");
+    ASSERT_NE(first, std::string::npos) << said;
+    EXPECT_EQ(said.find("there is no robot", first + 1), std::string::npos) << said;
 }
 
 }  // namespace

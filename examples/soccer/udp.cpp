@@ -56,8 +56,9 @@ Address Address::from_environment(const char* variable, const Address& fallback)
     return {text.substr(0, colon), port};
 }
 
-UdpReceiver::UdpReceiver(const Address& listen) : socket_(open_socket()) {
-    const sockaddr_in local = socket_address(listen);
+UdpReceiver::UdpReceiver(const Address& listen) {
+    const sockaddr_in local = socket_address(listen);  // throws before there is a socket to close
+    socket_ = open_socket();
     if (bind(socket_, reinterpret_cast<const sockaddr*>(&local), sizeof local) == 0) return;
     const int reason = errno;
     close(socket_);

@@ -10,14 +10,14 @@ import roboss
 from conftest import REPOSITORY
 
 EXAMPLES, SOCCER, ARM = REPOSITORY / "examples", REPOSITORY / "worlds" / "soccer.sdf", roboss.example("arm.sdf")
-TERRAIN, STAND_IN = "spider/terrain.py", "devices/joints_stand_in.py"
+TERRAIN, STAND_IN, SSL_TEAM = "spider/terrain.py", "devices/joints_stand_in.py", "soccer/ssl_team.py"
 PROGRAM = EXAMPLES / "arm_program" / "pick_and_place.txt"
 
 
-def refusal(script, *words):
+def refusal(script, *words, **environment):
     """What a script says when it ends with 2."""
     done = subprocess.run([sys.executable, EXAMPLES / script, *map(str, words)], capture_output=True, text=True, check=False,
-                          timeout=60, env={**os.environ, "PYTHONDONTWRITEBYTECODE": "1"})
+                          timeout=60, env={**os.environ, "PYTHONDONTWRITEBYTECODE": "1", **environment})
     assert done.returncode == 2 and "Traceback" not in done.stderr and done.stderr.strip(), done.stderr
     return done.stderr
 
@@ -40,6 +40,9 @@ def test_a_gait_that_is_none(tmp_path, text):
     ("arm_program/arm_program.py", ["no_such.urdf", PROGRAM]), ("arm_program/arm_program.py", [ARM, "no_such.txt"]),
     ("arm_program/arm_program.py", [ARM, PROGRAM, "--link", "no_such"]), ("arm_program/arm_program.py", [ARM, PROGRAM, "--ramp", 0]),
     ("arm_program/arm_program.py", [ARM, sys.executable]),
+    (SSL_TEAM, ["green"]), (SSL_TEAM, ["blue", "--vision", "nonsense"]), (SSL_TEAM, ["blue", "--vision", "camera:10020"]),
+    (SSL_TEAM, ["blue", "--vision", "224.5.23.2:70000"]), (SSL_TEAM, ["blue", "--vision", "192.0.2.1:10020"]),
+    (SSL_TEAM, ["blue", "--simulator", "my_computer"]), (SSL_TEAM, ["blue", "--interface", "lo"]), (SSL_TEAM, ["blue", "--port", 0]),
 ])
 def test_wrong_input(script, words):
     refusal(script, *words)
@@ -49,3 +52,15 @@ def test_a_port_that_is_taken():
     with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as other:
         other.bind(("", 0))
         assert "joints_stand_in: " in refusal(STAND_IN, SOCCER, "--camera", other.getsockname()[1])
+
+
+def test_protoc_is_missing(tmp_path):
+    assert "remedy: install it" in refusal(SSL_TEAM, "blue", PATH=str(tmp_path))
+
+
+def test_protobuf_does_not_fit_protoc(tmp_path):
+    package = tmp_path / "google" / "protobuf"
+    package.mkdir(parents=True)
+    (tmp_path / "google" / "__init__.py").touch()
+    (package / "__init__.py").touch()  # one that has nothing of what protoc's file imports
+    assert "remedy: pip install" in refusal(SSL_TEAM, "blue", PYTHONPATH=str(tmp_path))

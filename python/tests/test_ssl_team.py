@@ -4,6 +4,7 @@ import math
 import os
 import socket
 import subprocess
+import sys
 from pathlib import Path
 
 import pytest
@@ -60,6 +61,89 @@ def test_yellow_plays_the_other_way(ssl_team, messages):
     assert attacker.move_command.global_velocity.x < 0
 
 
+def division_a(messages, ball, blue):
+    """Sight and geometry of a field of division A."""
+    packet = sight(messages, ball, blue, [])
+    field = packet.geometry.field
+    field.field_length, field.field_width, field.boundary_width = 12000, 9000, 300
+    field.goal_width, field.goal_depth = 1800, 180
+    field.penalty_area_depth, field.penalty_area_width = 1800, 3600
+    return packet
+
+
+class Posts:
+    """A socket that counts what is sent."""
+
+    def __init__(self):
+        self.count = 0
+
+    def sendto(self, _data, _address):
+        self.count += 1
+
+
+@pytest.mark.parametrize("ball, goals, placed", [
+    ((0, 4000), 0, 0), ((0, 4600), 0, 1), ((6100, 800), 1, 1), ((6100, 1000), 0, 1),
+])
+def test_the_referee_takes_field_and_goal_from_the_geometry(ssl_team, messages, ball, goals, placed):
+    team, referee, posts = ssl_team.Team(messages, yellow=False), ssl_team.Referee(messages, ("", 0)), Posts()
+    for time, place in ((1.0, (0, 0)), (1.1, ball), (1.7, ball)):
+        team.look(division_a(messages, place, []))
+        referee.look(team, time, posts)
+    assert (referee.goals["blue"], posts.count) == (goals, placed)
+
+
+def test_the_goalkeeper_takes_goal_and_penalty_area_from_the_geometry(ssl_team, messages):
+    team = ssl_team.Team(messages, yellow=False)
+
+    def keeper(ball, at):
+        team.look(division_a(messages, ball, [at]))
+        return team.commands().robot_commands[0]
+
+    assert keeper((-4500, 1500), (-5000, 0, 0)).dribbler_speed > 0, "the ball is in its area: it clears it"
+    assert keeper((-4300, 0), (-5000, 0, 0)).dribbler_speed == 0
+    move = keeper((-5000, 4000), (-5850, 600, 0)).move_command.global_velocity
+    assert move.y > 0.1, "it goes to the post, 0.9 m from the middle"
+
+
+def test_damaged_datagrams_are_no_packet(ssl_team, messages):
+    good = sight(messages, (0, 0), [(0, 0, 0)], [])
+    assert ssl_team.packet_of(messages, good.SerializeToString()) == good
+    assert ssl_team.packet_of(messages, b"\xff\xff\xff") is None
+    assert ssl_team.packet_of(messages, b"\x0a\x00") is None, "required fields are missing"
+    assert ssl_team.packet_of(messages, sight(messages, (0, 0), [(0, 0, math.inf)], []).SerializeToString()) is None
+
+
+def test_a_damaged_datagram_is_reported_once_and_does_not_end_the_team(messages):
+    vision, commands = free_ports(1), socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
+    with commands, socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as camera:
+        commands.bind(("127.0.0.1", 0))
+        commands.settimeout(0.2)
+        team = subprocess.Popen([sys.executable, REPOSITORY / "examples" / "soccer" / "ssl_team.py", "blue", "--vision",
+                                 f"127.0.0.1:{vision}", "--port", str(commands.getsockname()[1])],
+                                stderr=subprocess.PIPE, text=True)
+        answer, good = b"", sight(messages, (0, 0), [(0, 0, 0), (-1000, 0, 0)], []).SerializeToString()
+        try:
+            for _ in range(150):
+                for data in (b"\xff\xff\xff", b"\xff", good):
+                    camera.sendto(data, ("127.0.0.1", vision))
+                try:
+                    answer = commands.recv(65536)
+                    break
+                except TimeoutError:
+                    continue
+        finally:
+            team.terminate()
+            said = team.communicate()[1]
+    assert len(messages.RobotControl.FromString(answer).robot_commands) == 2
+    assert said == "ssl_team: a datagram of 3 bytes is no packet of ssl-vision: ignored\n"
+
+
+def test_the_generated_file_is_removed(ssl_team, tmp_path, monkeypatch):
+    monkeypatch.setattr(ssl_team.tempfile, "tempdir", str(tmp_path))
+    assert ssl_team.load_messages().SSL_WrapperPacket
+    assert not list(tmp_path.iterdir())
+
+
 def free_ports(count):
     """The first of so many UDP ports in a row, and one more."""
     while True:
@@ -87,6 +171,7 @@ def test_it_drives_to_the_ball_and_kicks_it(ssl_team, messages, tmp_path):
     run = subprocess.Popen([BUILD / "bin" / "roboss", "run", world, "--headless", "--speed", "1", "--client",
                             BUILD / "lib" / "roboss_soccer_ssl_bridge.so"], env=environment, stderr=subprocess.DEVNULL)
     team, mouth = ssl_team.Team(messages, yellow=False), socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
+    team.half_length = 0
     try:
         at, speed, last = 0, 0, None
         while at < 10 and speed < 3:
@@ -103,4 +188,4 @@ def test_it_drives_to_the_ball_and_kicks_it(ssl_team, messages, tmp_path):
         eyes.close()
         mouth.close()
     assert speed >= 3
-    assert team.half_length == 4.5
+    assert team.half_length == 4.5, "from the geometry"
