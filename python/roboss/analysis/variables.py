@@ -12,10 +12,8 @@ from ..robots import Floats, Robots
 from ..run import Run
 from ..sensors import Sensor
 from .messages import AS_MESSAGES, WORLD_CONTACTS, Messages, kinds_of
-from .recording import Column, matches
+from .recording import POSE, TWIST, Column, matches
 
-_POSE = (("x", "m"), ("y", "m"), ("z", "m"), ("qx", ""), ("qy", ""), ("qz", ""), ("qw", ""))
-_TWIST = (("vx", "m/s"), ("vy", "m/s"), ("vz", "m/s"), ("wx", "rad/s"), ("wy", "rad/s"), ("wz", "rad/s"))
 _Read = Callable[[Robots], Any]  # gives (N, parts)
 
 
@@ -139,12 +137,12 @@ def _kinds(robots: Robots) -> list[_Kind]:
 
 
 def _of_base(robots: Robots) -> list[_Kind]:
-    kinds = [_Kind("pose", _POSE, "world", lambda r: r.pose)]
+    kinds = [_Kind("pose", POSE, "world", lambda r: r.pose)]
     for number, axis in enumerate("xyz"):
         kinds.append(_Kind(axis, (("", "m"),), "world", lambda r, n=number: r.pose[:, n]))
     kinds.append(_Kind("yaw", (("", "rad"),), "world", lambda r: yaw(r.pose[:, 3:])))
     if robots._facts.free_base:
-        kinds += [_Kind("twist", _TWIST, "world", lambda r: r.twist),
+        kinds += [_Kind("twist", TWIST, "world", lambda r: r.twist),
                   _Kind("speed", (("", "m/s"),), "", lambda r: np.linalg.norm(r.twist[:, :3], axis=1))]
     return kinds + [_Kind("energy", (("kinetic", "J"), ("potential", "J")), "", lambda r: r.energy),
                     _Kind("contacts", (("", ""),), "", _contacts),
@@ -174,8 +172,8 @@ def _of_joints(robots: Robots) -> list[_Kind]:
 def _of_links(robots: Robots) -> list[_Kind]:
     kinds = []
     for link in robots.links:
-        kinds += [_Kind(f"{link}.pose", _POSE, "world", lambda r, n=link: r.link_pose(n)),
-                  _Kind(f"{link}.twist", _TWIST, "world", lambda r, n=link: r.link_twist(n))]
+        kinds += [_Kind(f"{link}.pose", POSE, "world", lambda r, n=link: r.link_pose(n)),
+                  _Kind(f"{link}.twist", TWIST, "world", lambda r, n=link: r.link_twist(n))]
     return kinds
 
 
