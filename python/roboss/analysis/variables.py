@@ -42,13 +42,15 @@ class Variables:
         run: a Simulation or RemoteSimulation.
         patterns: None: all.
         messages: choose messages, too: images, contact points, what radios heard (`messages`).
+        every: time between two samples, s. Messages that would be incomplete, as those of radios, are left out (`left_out`).
 
     Raises:
         UnknownNameError: a pattern matches nothing.
-        ArgumentError: a pattern matches only messages, which were not wanted (code "no-numbers").
+        ArgumentError: a pattern matches only messages, which were not wanted (code "no-numbers"), or only such that are left
+            out ("bad-value").
     """
 
-    def __init__(self, run: Run, patterns: Union[str, Iterable[str], None] = None, messages: bool = False):
+    def __init__(self, run: Run, patterns: Union[str, Iterable[str], None] = None, messages: bool = False, every: float = 0.0):
         wanted = None if patterns is None else [patterns] if isinstance(patterns, str) else list(patterns)
         self.columns: list[Column] = []  #: of the arrays of read()
         self._parts: list[tuple[Robots, _Read, list[int]]] = []
@@ -71,7 +73,8 @@ class Variables:
                     some = robots if len(rows) == len(robots) else robots[np.array(rows)]
                     self._parts.append((some, kind.read, [place for row in places for place in row]))
         self.messages = Messages(run)  #: those that match; of read_messages()
-        unmatched = self._choose_messages(run, wanted, unmatched, known, messages)
+        self.left_out: list[str] = []  #: messages that match, but need samples more often
+        unmatched = self._choose_messages(run, wanted, unmatched, known, messages, every)
         for pattern in unmatched:
             raise unknown("variable", pattern, known)
         self._chosen = [number for number, column in enumerate(self.columns)
@@ -80,25 +83,36 @@ class Variables:
         self.columns = [self.columns[number] for number in self._chosen]
 
     def _choose_messages(self, run: Run, wanted: Optional[list[str]], unmatched: set[str], known: list[str],
-                         takes: bool) -> set[str]:
+                         takes: bool, every: float) -> set[str]:
         """Adds the messages that match to self.messages, and all to the known names; gives the patterns that still match nothing."""
         if not takes and not unmatched:
             return unmatched  # sensors are not asked in vain
         chosen = Messages(run)
 
-        def fits(name: str) -> bool:
+        seldom: dict[str, tuple[str, float]] = {}  # by pattern: a message that it matches, and its longest pause
+
+        def fits(name: str, longest: float = np.inf) -> bool:
             known.append(name)
-            unmatched.difference_update([pattern for pattern in wanted or () if matches(pattern, Column(name, name))])
-            return wanted is None or any(matches(pattern, Column(name, name)) for pattern in wanted)
+            hit = [pattern for pattern in wanted or () if matches(pattern, Column(name, name))]
+            if takes and every > longest + 1e-9:
+                seldom.update((pattern, (name, longest)) for pattern in hit)
+                self.left_out += [name] if hit or wanted is None else []
+                return False
+            unmatched.difference_update(hit)
+            return wanted is None or bool(hit)
 
         before = set(unmatched)
         if fits(WORLD_CONTACTS.name):
             chosen.add_world_contacts()
         for robots in _by_type(run):
             for kind in kinds_of(robots):
-                rows = [row for row, robot in enumerate(robots.names) if fits(kind.variable(robot).name)]
+                rows = [row for row, robot in enumerate(robots.names) if fits(kind.variable(robot).name, kind.longest)]
                 if rows:
                     chosen.add(robots if len(rows) == len(robots) else robots[np.array(rows)], kind)
+        for pattern in unmatched & seldom.keys():
+            name, longest = seldom[pattern]
+            raise ArgumentError(f"'{name}' with {every:g} s between two samples: its sensor keeps messages for {longest:g} s",
+                                f"sample at least every {longest:g} s (--every), or leave '{pattern}' out", "bad-value")
         if takes:
             self.messages = chosen
         elif before != unmatched:
