@@ -149,6 +149,15 @@ def test_start_pose_and_time_are_found_from_a_table_of_a_tracker(slide):
     assert abs(blind["value"] - 0.4) > 0.02  # without them mu is wrong
 
 
+def test_an_offset_may_be_any_number_of_its_range(slide):
+    as_csv(slide, "left.csv", shift=(-0.1, -0.1))
+    words = ["calibrate", "slide.sdf", "--run", "left.csv=push.jsonl", "--parameter", f"mu={MU}@0.1..1", "--fit-start", "box"]
+    told = {row["name"]: row for row in json.loads(command(slide, *words, "--json"))["parameters"]}
+    assert told["box x of left.csv"]["value"] == pytest.approx(-0.1, abs=1e-4)
+    assert told["box y of left.csv"]["value"] == pytest.approx(-0.1, abs=1e-4)
+    assert told["mu"]["value"] == pytest.approx(0.4, rel=2e-3)
+
+
 def test_a_table_that_is_wrong_names_its_line(slide):
     parameter = ("--parameter", f"mu={MU}")
     as_csv(slide, "words.csv", cell=lambda x: "1,2" if x > 0.5 else "?" if x > 0.4 else "")

@@ -180,12 +180,20 @@ def test_drift_is_taken_between_the_first_and_the_last_visits():
         assert pose.drift.accuracy == pytest.approx(0.002) and pose.drift.repeatability == pytest.approx(0, abs=1e-12)
 
 
-def test_corners_are_found_where_the_commanded_path_turns_without_a_rest():
-    side = np.linspace(0, 0.4, 401)[1:, None]
+def cornered(points=401):
+    """Positions along an L of 0.4 m, there and back, three times, with a rest at each end."""
+    side = np.linspace(0, 0.4, points)[1:, None]
     along, across = side * [1.0, 0, 0], [0.4, 0, 0] + side * [0, 1.0, 0]
     one = np.vstack([np.zeros((50, 3)), along, across, np.tile(across[-1], (50, 1))])
-    back = np.vstack([one, one[::-1]])
-    commanded = np.vstack([back, back, back])
+    return np.vstack([one, one[::-1]] * 3)
+
+
+def corners_of(commanded):
+    return analyse_arm(np.arange(len(commanded)) * 0.01, poses(commanded), poses(commanded)).corners
+
+
+def test_corners_are_found_where_the_commanded_path_turns_without_a_rest():
+    commanded = cornered()
     late = np.vstack([np.tile(commanded[0], (10, 1)), commanded[:-10]])
     late[:, 2] += 0.002  # so the corner is missed by 2 mm
     corners = analyse_arm(np.arange(len(commanded)) * 0.01, poses(late), poses(commanded)).corners
@@ -194,12 +202,43 @@ def test_corners_are_found_where_the_commanded_path_turns_without_a_rest():
         assert corner.round_off == pytest.approx(0.002) and corner.overshoot == pytest.approx(0, abs=1e-12)
 
 
+@pytest.mark.parametrize("points", [3, 41, 137, 4001, 40001])
+def test_corners_are_found_at_any_sampling(points):
+    found = [(corner.place.tolist(), corner.runs) for corner in corners_of(cornered(points))]
+    assert found == [([0.4, 0, 0], 3)] * 2
+
+
+def test_rounded_positions_of_a_slanting_line_make_no_corners():
+    turn = np.array([[0.8, -0.6, 0], [0.6, 0.8, 0], [0, 0, 1]]) @ [[1, 0, 0], [0, 0.96, -0.28], [0, 0.28, 0.96]]
+    for points in (401, 4001, 40001):  # steps of 1, 0.1, 0.01 mm
+        found = corners_of(np.round(cornered(points) @ turn.T, 5))
+        assert [corner.place == pytest.approx(turn @ [0.4, 0, 0], abs=1e-4) for corner in found] == [True] * 2
+
+
+@pytest.mark.parametrize("places", [5, 15])
+@pytest.mark.parametrize("points", [41, 401, 4001])
+def test_a_path_that_goes_back_on_its_line_has_no_corner(points, places):
+    side = np.linspace(0, 0.4, points)[1:, None] * [0.6, 0.64, 0.48]
+    one = np.round(np.vstack([np.zeros((50, 3)), side, side[::-1]]), places)
+    assert corners_of(np.vstack([one, one, one, np.zeros((50, 3))])) == []
+
+
 def test_arms_of_one_type_are_compared_at_the_poses_that_they_share():
     from roboss.analysis.arm import exchangeability
     arms = [analyse_arm(*recorded(np.array([x, 0, 0]), 0.0)) for x in (0.0, 0.001, 0.003)]
     assert exchangeability(arms) == [("P1", pytest.approx(0.003)), ("P2", pytest.approx(0.003))]
     with pytest.raises(roboss.ArgumentError):
         exchangeability(arms[:1])
+
+
+def test_both_signs_of_a_quaternion_are_one_pose():
+    from roboss.analysis.arm import exchangeability
+    time, measured, commanded = recorded(np.array([0, 0.001, 0]), 0.0)
+    flipped = commanded.copy()
+    flipped[np.arange(len(time)) // 130 % 2 == 0, 3:] *= -1  # also within rests, and from visit to visit
+    one, other = analyse_arm(time, measured, commanded), analyse_arm(time, measured, flipped)
+    assert [(p.name, len(p.attained)) for p in other.poses] == [(p.name, len(p.attained)) for p in one.poses]
+    assert exchangeability([one, other]) == [("P1", pytest.approx(0)), ("P2", pytest.approx(0))]
 
 
 def test_a_single_cycle_is_refused():

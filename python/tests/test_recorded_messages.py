@@ -96,6 +96,23 @@ def test_a_radio_is_not_sampled_too_seldom(tmp_path):
     assert caught.value.code == "bad-value"
 
 
+def test_wildcards_leave_out_radios_that_are_sampled_too_seldom(tmp_path):
+    done = analysis.record_file(RADIO, tmp_path / "run.parquet", ["rover_1.**", "rover_0.pose"], until=4, every=2)
+    assert done.left_out == ("rover_1.radio.messages",) and done.samples == 3
+    assert "rover_1.x" in done.variables and "rover_1.contact_points" in done.variables
+    assert not any(name.endswith("radio.messages") for name in done.variables)
+    assert not analysis.record_file(RADIO, tmp_path / "run.parquet", "rover_1.**", until=2, every=1).left_out
+
+
+def test_a_refused_recording_leaves_the_older_file(tmp_path):
+    path = tmp_path / "run.parquet"
+    path.write_bytes(b"older")
+    for pattern in ("rover_1.radio.messages", "**.messages"):
+        with pytest.raises(roboss.ArgumentError, match=r"rover_\d\.radio\.messages") as caught:
+            analysis.record_file(RADIO, path, ["rover_1.**", pattern], until=4, every=2)
+        assert caught.value.code == "bad-value" and path.read_bytes() == b"older"
+
+
 def test_readings_of_changing_length_are_messages(tmp_path):
     world = """<sdf version="1.11"><world name="w"><model name="box"><pose>0 0 0.6 0 0 0</pose><link name="l">
         <inertial><mass>2</mass><inertia><ixx>0.3</ixx><iyy>0.3</iyy><izz>0.3</izz></inertia></inertial>

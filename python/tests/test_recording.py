@@ -209,3 +209,42 @@ def test_a_walker_s_demand_is_that_of_its_motors(tmp_path):
     joint, = result["tables"]["Demand of each joint"]
     assert joint["Joint"] == "lift" and joint["rms [N]"] == pytest.approx(3) and joint["peak [N]"] == pytest.approx(3)
     assert joint["peak speed [m/s]"] == pytest.approx(0.2 * 3 * (1 + 1 / 2), rel=0.01)
+
+
+def as_csv(recording, path, order=1):
+    """The numbers as a table of another program, in this order of columns."""
+    names = [column.name for column in recording.columns][::order]
+    rows = [",".join(map(repr, [float(time), *values.tolist()])) for time, values in zip(recording.time, recording.values[:, ::order])]
+    path.write_text("\n".join([",".join(["time", *names]), *rows]) + "\n")
+
+
+def test_an_arm_is_analysed_from_a_table(tmp_path):
+    line = np.linspace(0, 0.4, 41)[:, None] * [1.0, 0.5, 0]
+    one = np.vstack([np.tile(line[0], (30, 1)), line, np.tile(line[-1], (30, 1)), line[::-1]])
+    commanded = np.hstack([np.tile(one, (3, 1)), np.tile([0, 1.0, 0, 0], (3 * len(one), 1))])
+    measured = commanded + [0, 0, 0.001, 0, 0, 0, 0]
+    columns = [analysis.Column(f"arm.tool.{what}.{part}", f"arm.tool.{what}") for what in ("pose", "command")
+               for part in ("x", "y", "z", "qx", "qy", "qz", "qw")]
+    recording = analysis.Recording(np.arange(len(commanded)) * 0.01, columns, np.hstack([measured, commanded]))
+    as_csv(recording, tmp_path / "arm.csv", order=-1)
+    again = analysis.read(tmp_path / "arm.csv")
+    assert set(again.variables) == {"arm.tool.pose", "arm.tool.command"} and (again["arm.tool.pose"] == measured).all()
+    assert {column.name: column.unit for column in again.columns}["arm.tool.pose.x"] == "m"
+    tables = json.loads(command("analyse", "arm", tmp_path / "arm.csv", "-o", tmp_path / "arm.html", "--json"))["tables"]
+    rows = tables["Pose accuracy (AP) and repeatability (RP)"]
+    assert len(rows) == 2 and all(row["AP [mm]"] == pytest.approx(1) for row in rows)
+    recording.values[7, 2] = np.nan
+    as_csv(recording, tmp_path / "gaps.csv")
+    assert "has-gaps" in command("analyse", "arm", tmp_path / "gaps.csv", "-o", tmp_path / "gaps.html", code=1)
+
+
+def test_a_walker_is_analysed_from_a_table(tmp_path):
+    time = np.arange(101) * 0.01
+    columns = [analysis.Column(f"bug.{name}", f"bug.{name}") for name in ("pose.x", "pose.y", "hip.effort", "hip.velocity")]
+    values = np.column_stack([time, 0 * time, 0 * time + 3, 0 * time + 2])
+    as_csv(analysis.Recording(time, columns, values), tmp_path / "bug.csv")
+    tables = json.loads(command("analyse", "walker", tmp_path / "bug.csv", "--mass", 2, "-o", tmp_path / "bug.html", "--json"))["tables"]
+    joint, = tables["Demand of each joint"]
+    assert joint["Joint"] == "hip" and joint["rms [N m or N]"] == pytest.approx(3)
+    cost, = tables["Mechanical cost of transport"]
+    assert cost["Cost"] == pytest.approx(3 * 2 / (2 * 9.81))

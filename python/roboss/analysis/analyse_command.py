@@ -2,7 +2,7 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Any, Optional
+from typing import Any, Iterable, Optional
 
 import numpy as np
 
@@ -15,7 +15,7 @@ from .recording import READABLE, Recording, read, write
 _ARM = """Examples:
   roboss analyse arm worlds/arm.sdf --robot arm --link tool          the whole test, some minutes
   roboss analyse arm worlds/arm.sdf --cycles 5 --speeds 1 --loads 1 --keep test.parquet
-  roboss analyse arm test.parquet                                    a recording, of this test or your own
+  roboss analyse arm test.parquet                                    a recording (or .mcap, .csv), of this test or your own
   roboss analyse arm run.parquet --measured arm.tool.pose --commanded arm.tool.command
   roboss analyse arm arm_1.parquet --exchange arm_2.parquet arm_3.parquet   exchangeability of arms of one type
 
@@ -162,7 +162,17 @@ def _pose_names(recording: Recording, options: Any) -> tuple[str, str]:
     for name in (measured, commanded):
         if recording[name].ndim != 2 or recording[name].shape[1] != 7:
             raise ArgumentError(f"'{name}' is no pose", "name variables of x y z qx qy qz qw", "no-pose")
+    _check_complete(recording, (measured, commanded))
     return measured, commanded
+
+
+def _check_complete(recording: Recording, names: Iterable[str]) -> None:
+    """Refuses gaps and times that do not ascend, as tables of other programs may have them."""
+    if len(recording.time) < 2 or not (np.diff(recording.time) > 0).all():
+        raise ArgumentError("the times of the recording do not ascend", "give two samples or more, sorted by time", "bad-times")
+    for name in names:
+        if not np.isfinite(recording[name]).all():
+            raise ArgumentError(f"'{name}' has samples without a value", "leave these samples out, or interpolate them", "has-gaps")
 
 
 def _conditions(recording: Recording) -> list[tuple[str, Recording]]:
@@ -216,6 +226,9 @@ def _walker(options: Any, progress: Progress) -> Any:
     robot = robot or robots.pop()
     joints = [name[len(robot) + 1:-len(".effort")] for name in recording.variables
               if name.startswith(robot + ".") and name.endswith(".effort") and name[:-6] + "velocity" in recording]
+    if recording[f"{robot}.pose"].ndim != 2:
+        raise ArgumentError(f"'{robot}.pose' is no pose", "give its x and y, or all of it", "no-pose")
+    _check_complete(recording, [f"{robot}.pose", *(f"{robot}.{joint}.{what}" for joint in joints for what in ("effort", "velocity"))])
     units = {column.variable: column.unit for column in recording.columns}
     efforts = np.column_stack([recording[f"{robot}.{joint}.effort"] for joint in joints])
     velocities = np.column_stack([recording[f"{robot}.{joint}.velocity"] for joint in joints])

@@ -9,6 +9,7 @@ from dataclasses import dataclass, field
 from typing import Optional, Sequence
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ..errors import ArgumentError
 from ..robots import Floats
@@ -16,7 +17,8 @@ from . import iso9283
 
 _PLACES = 6  # decimals, m, to which commanded poses are the same
 _PATH_POINTS = 50
-_LEAST_CORNER = np.cos(np.radians(20))  # of the angle by which a commanded path turns
+_LEAST_CORNER, _REVERSAL = np.cos(np.radians([20, 175]))  # of the angle by which a commanded path turns
+_SPAN = 1e-3  # m over which its directions are taken, so that rounded positions make no corners
 _REST_SHARE = 0.2  # end of a rest over which the attained pose is averaged
 
 
@@ -106,6 +108,7 @@ def analyse_arm(time: Floats, measured: Floats, commanded: Floats, *, name: str 
     Raises:
         ArgumentError: no pose is visited twice (code "too-few-cycles").
     """
+    commanded = _continuous(commanded)
     rests, targets = _rests(time, commanded, least_rest)
     visits = [[rest for rest in rests if rest.pose == number] for number in range(len(targets))]
     poses, arrivals = [], {}
@@ -137,8 +140,7 @@ def exchangeability(conditions: Sequence[Condition]) -> list[tuple[str, float]]:
     """
     found = []
     for pose in conditions[0].poses:
-        same = [[other for other in condition.poses if np.allclose(other.commanded, pose.commanded, atol=10.0**-_PLACES)]
-                for condition in conditions]
+        same = [[other for other in condition.poses if _same(other.commanded, pose.commanded)] for condition in conditions]
         if len(conditions) > 1 and all(same):
             means = np.array([some[0].attained[:, :3].mean(axis=0) for some in same])
             found.append((pose.name, iso9283.exchangeability(means)))
@@ -160,17 +162,42 @@ def _corners(measured: Floats, commanded: Floats, rests: list[_Rest]) -> list[Co
     runs: dict[tuple, list[tuple[float, float]]] = {}
     for before, after in zip(rests[:-1], rests[1:]):
         path = commanded[before.end - 1:after.begin + 1, :3]
-        path = path[np.concatenate([[True], np.any(np.diff(path, axis=0) != 0, axis=1)])]
-        steps = np.diff(path, axis=0)
-        steps /= np.linalg.norm(steps, axis=1, keepdims=True)
-        turns = np.flatnonzero(np.sum(steps[:-1] * steps[1:], axis=1) < _LEAST_CORNER) + 1
+        turns, before_turn, behind = _turns(path)
         ends = path[np.concatenate([[0], turns, [len(path) - 1]])]
-        for number, k in enumerate(turns):
+        for number, (k, first, second) in enumerate(zip(turns, before_turn, behind)):
+            if first @ second < _REVERSAL:
+                continue  # it goes back on its line
             reach = min(np.linalg.norm(ends[number] - path[k]), np.linalg.norm(ends[number + 2] - path[k])) / 2
             near = _within(measured[before.end - 1:after.end, :3], path[k], reach)
-            key = tuple(np.round([*path[k], *steps[k - 1], *steps[k]], _PLACES - 2) + 0.0)
-            runs.setdefault(key, []).append(iso9283.cornering(near, path[k], steps[k - 1], steps[k]))
+            key = tuple(np.round([*path[k], *first, *second], _PLACES - 2) + 0.0)
+            runs.setdefault(key, []).append(iso9283.cornering(near, path[k], first, second))
     return [CornerResult(np.array(key[:3]), len(some), *(max(column) for column in zip(*some))) for key, some in runs.items()]
+
+
+def _turns(path: Floats) -> tuple[NDArray[np.int_], Floats, Floats]:
+    """Points (n,) at which a path turns, and the directions before and behind them, (n, 3).
+
+    Directions are taken over _SPAN, so all points that are nearer to a corner see a part of the turn. Of turns that are
+    nearer to each other than twice that, only the sharpest counts: it is the corner.
+    """
+    length = np.concatenate([[0], np.cumsum(np.linalg.norm(np.diff(path, axis=0), axis=1))])
+    inner = np.flatnonzero((length >= _SPAN) & (length <= length[-1] - _SPAN))
+    first = np.searchsorted(length, length[inner] - _SPAN, side="right") - 1
+    last = np.minimum(np.searchsorted(length, length[inner] + _SPAN), len(path) - 1)
+    before, behind = _units(path[inner] - path[first]), _units(path[last] - path[inner])
+    cosine = np.sum(before * behind, axis=1)
+    found: list[int] = []
+    for n in np.flatnonzero(cosine < _LEAST_CORNER):
+        if not found or length[inner[n]] - length[inner[found[-1]]] >= 2 * _SPAN:
+            found.append(n)
+        elif cosine[n] < cosine[found[-1]]:
+            found[-1] = n
+    return inner[found], before[found], behind[found]
+
+
+def _units(vectors: Floats) -> Floats:
+    """Unit vectors; 0 stays 0."""
+    return vectors / np.maximum(np.linalg.norm(vectors, axis=1, keepdims=True), 1e-12)
 
 
 def _within(attained: Floats, corner: Floats, reach: float) -> Floats:
@@ -183,16 +210,29 @@ def _rests(time: Floats, commanded: Floats, least: float) -> tuple[list[_Rest], 
     """Where the commanded pose rests, and the different poses."""
     moves = np.any(np.abs(np.diff(commanded, axis=0)) > 1e-12, axis=1)
     edges = np.flatnonzero(np.diff(np.concatenate([[True], moves, [True]]).astype(int)))
-    rests, targets, numbers = [], [], {}
+    rests: list[_Rest] = []
+    targets: list[Floats] = []
     for begin, end in zip(edges[::2], edges[1::2]):
         if time[end] - time[begin] < least:
             continue
-        key = tuple(np.round(commanded[begin], _PLACES) + 0.0)
-        if key not in numbers:
-            numbers[key] = len(targets)
+        number = next((n for n, target in enumerate(targets) if _same(target, commanded[begin])), len(targets))
+        if number == len(targets):
             targets.append(commanded[begin])
-        rests.append(_Rest(int(begin), int(end) + 1, numbers[key]))
+        rests.append(_Rest(int(begin), int(end) + 1, number))
     return rests, targets
+
+
+def _continuous(poses: Floats) -> Floats:
+    """The same poses, with signs of their quaternions that do not jump."""
+    jumps = np.sum(poses[1:, 3:] * poses[:-1, 3:], axis=1) < 0
+    signs = np.where(np.cumsum(np.concatenate([[False], jumps])) % 2, -1.0, 1.0)
+    return np.column_stack([poses[:, :3], signs[:, None] * poses[:, 3:]])
+
+
+def _same(one: Floats, other: Floats) -> bool:
+    """Whether two poses are the same; the quaternions q and -q are one rotation."""
+    sign = -1.0 if one[3:] @ other[3:] < 0 else 1.0
+    return bool(np.allclose(one, [*other[:3], *(sign * other[3:])], rtol=0, atol=10.0**-_PLACES))
 
 
 def _attained(measured: Floats, rest: _Rest) -> Floats:

@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 from ..errors import ArgumentError, RobossError
 from ..robots import Floats
 from ..simulation import Simulation
-from .offsets import Offset, Starts, offsets_of, scaled, unscaled
+from .offsets import SCALE, Offset, Starts, offsets_of
 from .recorder import journal_of_run, opened_world, record
 from .recording import Column, Recording, matches
 from .variables import Variables
@@ -184,18 +184,20 @@ def calibrate(world: Union[str, os.PathLike], parameters: Sequence[Parameter], r
     low, high = _bounds(parameters, file.start)
     offsets = offsets_of(len(runs), fit_start, fit_time)
     most = np.array([offset.most for offset in offsets])
-    start = np.concatenate([file.start, scaled(0 * most)])
-    low, high = np.concatenate([low, scaled(-most)]), np.concatenate([high, scaled(most)])
+    start, low, high = (np.concatenate(parts) for parts in ((file.start, 0 * most), (low, -most), (high, most)))
+    size = np.concatenate([np.abs(file.start), np.full(len(offsets), SCALE)])
+    least = np.concatenate([0.1 * np.abs(file.start), np.full(len(offsets), SCALE)])
     fit = _Comparison(file, runs, (compare,) if isinstance(compare, str) else tuple(compare), clients, options or {}, offsets, progress)
     before = fit.differences(start)
     spread, values, found, weights = _spread(fit.units, before), start, None, None
     for _ in range(2):  # the second time by what the first left: each unit counts by its own noise
         weights = np.array([1 / max(spread[unit], _FINEST) for unit in fit.units])
-        found = optimize.least_squares(lambda x: fit.differences(x) * weights, values, bounds=(low, high), x_scale=np.abs(start),
-                                       diff_step=_STEP, xtol=1e-5, ftol=1e-8, gtol=1e-10, max_nfev=60)
+        found = optimize.least_squares(lambda x: fit.differences(x) * weights, values, bounds=(low, high), x_scale=size,
+                                       jac=lambda x: fit.jacobian(x, least, low, high) * weights[:, None],
+                                       xtol=1e-5, ftol=1e-8, gtol=1e-10, max_nfev=60)
         values, spread = found.x, _spread(fit.units, found.fun / weights)
     names = [parameter.name for parameter in parameters] + [offset.name(runs[offset.run].name) for offset in offsets]
-    _check_influence(names, found.jac * np.concatenate([values[:len(parameters)], np.ones(len(offsets))]),
+    _check_influence(names, found.jac * np.concatenate([values[:len(parameters)], size[len(parameters):]]),
                      any(run.orders for run in runs))
     at_bound = found.active_mask != 0
     freedom = max(1, len(found.fun) - len(values))
@@ -204,14 +206,8 @@ def calibrate(world: Union[str, os.PathLike], parameters: Sequence[Parameter], r
     half = np.where(at_bound, np.nan, stats.t.ppf(0.975, freedom) * deviation)
     with np.errstate(invalid="ignore", divide="ignore"):
         correlation = covariance / np.outer(deviation, deviation)
-    start, centre, lowest, highest = (_in_units(x, len(parameters)) for x in (start, values, values - half, values + half))
-    return Calibration(tuple(names), start, centre, lowest, highest, at_bound, correlation, fit.compared, spread,
+    return Calibration(tuple(names), start, values, values - half, values + half, at_bound, correlation, fit.compared, spread,
                        _spread(fit.units, before), fit.simulations, bool(found.success), file.text(values[:len(parameters)]))
-
-
-def _in_units(values: Floats, parameters: int) -> Floats:
-    """Values of the optimiser as numbers of the file, and as offsets."""
-    return np.concatenate([values[:parameters], unscaled(values[parameters:])])
 
 
 def _check_influence(names: Sequence[str], jacobian: Floats, with_orders: bool) -> None:
@@ -257,17 +253,24 @@ class _Comparison:
         if key not in self._known:
             self.simulations += 1
             if self._progress:
-                shown = _in_units(values, len(values) - len(self._offsets))
-                self._progress(f"simulation {self.simulations}: " + ", ".join(f"{value:.5g}" for value in shown))
+                self._progress(f"simulation {self.simulations}: " + ", ".join(f"{value:.5g}" for value in values))
             self._known[key] = np.concatenate(list(self._rows(values)))
         return self._known[key]
+
+    def jacobian(self, values: Floats, least: Floats, low: Floats, high: Floats) -> Floats:
+        """Derivatives of differences() by finite differences between the bounds, (n, p). Steps are relative to the values, but
+        to `least` where these are smaller: offsets may be 0."""
+        step = _STEP * np.maximum(np.abs(values), least)
+        step = np.where(values + step <= high, step, -np.minimum(step, values - low))
+        here = self.differences(values)
+        return np.column_stack([(self.differences(values + by) - here) / by.sum() for by in np.diag(step)])
 
     def _rows(self, values: Floats) -> Iterator[Floats]:
         with tempfile.TemporaryDirectory(prefix="roboss_calibrate_") as folder, \
                 tempfile.NamedTemporaryFile("w", dir=self._file.path.parent, prefix=".calibrate_", suffix=self._file.path.suffix,
                                             encoding="utf-8") as world:  # beside the file, for paths in it are relative
             numbers = len(values) - len(self._offsets)
-            shifts = list(zip(self._offsets, unscaled(values[numbers:]).tolist()))
+            shifts = list(zip(self._offsets, values[numbers:].tolist()))
             world.write(self._file.text(values[:numbers]))
             world.flush()
             for number, (run, columns, finite) in enumerate(zip(self._runs, self._columns, self._finite)):

@@ -8,12 +8,16 @@ from typing import Sequence, Union
 import numpy as np
 
 from ..errors import ArgumentError
-from .recording import Column, Recording
+from .recording import POSE, TWIST, Column, Recording
+
+_GROUPS = {"pose": dict(POSE), "command": dict(POSE), "twist": dict(TWIST)}  # variables of several columns: units of their parts
+_UNITS = {"x": "m", "y": "m", "z": "m", "yaw": "rad", "speed": "m/s"}  # of ROBOT.x ...
 
 
 def read_csv(path: Union[str, os.PathLike]) -> Recording:
     """Reads a table. Columns stand between commas, semicolons or tabs, whichever the first line has; empty cells are NaN.
-    Lines that are empty or begin with # do not count. Names are those of `roboss record`; units are not known.
+    Lines that are empty or begin with # do not count. Names are those of `roboss record`: arm.tool.pose.x to arm.tool.pose.qw
+    are one variable, and so are the columns of X.command and X.twist, in any order. Units are known where the name tells them.
 
     Raises:
         ArgumentError: a line has too few or too many cells, or a cell is no number, or there is no column "time" (code
@@ -36,8 +40,27 @@ def read_csv(path: Union[str, os.PathLike]) -> Recording:
         raise ArgumentError(f"'{os.fspath(path)}' is empty", "give a line with the names of the columns, then numbers", "bad-table")
     values = np.array(rows, dtype=float).reshape(len(rows), len(names))
     time = names.index("time")
-    columns = [Column(name, name) for name in names if name != "time"]
-    return Recording(values[:, time], columns, np.delete(values, time, axis=1))
+    columns = [_column(name) for name in names]
+    variables = [column.variable for column in columns]
+    order = sorted((number for number in range(len(names)) if number != time),
+                   key=lambda number: (variables.index(variables[number]), _place(columns[number]), number))
+    return Recording(values[:, time], [columns[number] for number in order], values[:, order])
+
+
+def _column(name: str) -> Column:
+    """The column, and the variable that it is a part of."""
+    variable, _, part = name.rpartition(".")
+    units = _GROUPS.get(variable.rpartition(".")[2], {})
+    if part in units:
+        return Column(name, variable, units[part])
+    return Column(name, name, _UNITS.get(part, "") if name.count(".") == 1 else "")
+
+
+def _place(column: Column) -> int:
+    """Where the column stands in its variable."""
+    parts = list(_GROUPS.get(column.variable.rpartition(".")[2], ()))
+    part = column.name[len(column.variable) + 1:]
+    return parts.index(part) if part in parts else 0
 
 
 def _checked(names: list[str], where: str) -> list[str]:

@@ -1,7 +1,4 @@
-"""Offsets of a recorded run that are fitted with the numbers of a world: when its clock began, where the robot stood.
-
-The optimiser gets 1 + offset / scale, which begins at 1: so steps and changes are relative, as those of other parameters.
-"""
+"""Offsets of a recorded run that are fitted with the numbers of a world: when its clock began, where the robot stood."""
 from __future__ import annotations
 
 import json
@@ -12,10 +9,9 @@ from typing import Optional, Sequence
 import numpy as np
 
 from ..errors import ArgumentError
-from ..robots import Floats
 from ..simulation import Simulation
 
-_SCALE = 0.1  # m, rad, s: steps of finite differences are a thousandth of it
+SCALE = 0.1  # m, rad, s: a usual offset
 _MOST_METRES, _MOST_TURN = 1.0, 1.0  # m, rad: of a start pose
 
 
@@ -51,16 +47,6 @@ def offsets_of(runs: int, robots: Sequence[str], time: Optional[float]) -> list[
             found += [Offset(run, "x", robot, _MOST_METRES), Offset(run, "y", robot, _MOST_METRES),
                       Offset(run, "yaw", robot, _MOST_TURN)]
     return found
-
-
-def scaled(offsets: Floats) -> Floats:
-    """What the optimiser gets."""
-    return 1 + np.asarray(offsets) / _SCALE
-
-
-def unscaled(values: Floats) -> Floats:
-    """Offsets in m, rad, s, from what the optimiser has; of deviations without the 1."""
-    return (np.asarray(values) - 1) * _SCALE
 
 
 class Starts:

@@ -17,7 +17,7 @@ _EXAMPLES = """Examples:
 
 def parser() -> Parser:
     result = Parser("roboss plot", examples=_EXAMPLES, description="Draws variables over time, as PNG, SVG or PDF.")
-    result.add_argument("source", metavar="FILE", help="a recording (.parquet, .mcap), a journal, or a world")
+    result.add_argument("source", metavar="FILE", help="a recording (.parquet, .mcap, .csv), a journal, or a world")
     result.add_argument("variables", nargs="+", metavar="VARIABLE", help="names or patterns, as of `roboss record`")
     result.add_argument("-o", "--output", default="plot.png", metavar="FILE", help=".png, .svg or .pdf (default: plot.png)")
     result.add_argument("--against", metavar="COLUMN", help="the horizontal axis (default: time)")

@@ -78,7 +78,11 @@ def run(options: Any) -> Any:
         done = record_file(source, options.output, options.variables or ["*.pose"], until=options.until, every=options.every,
                            start=options.start, branch=options.branch, name=options.source,
                            progress=lambda now, end: progress(f"{now:.2f} of {end:.2f} s"))
-    result = {"file": options.output, "variables": done.variables, "columns": done.columns, "samples": done.samples,
+    if done.left_out:
+        progress.note(f"without {', '.join(done.left_out[:8])}{' ...' if len(done.left_out) > 8 else ''}: with {options.every:g} s "
+                      "between samples messages would be missing (--every)")
+    result = {"file": options.output, "variables": done.variables, "left_out": list(done.left_out),
+              "columns": done.columns, "samples": done.samples,
               "first_s": done.first, "last_s": done.last, "took_s": round(time.monotonic() - begin, 3)}
     if not options.json:
         print(f"{options.output}: {len(done.variables)} variables, {result['samples']} samples from "

@@ -71,6 +71,7 @@ class Recorded:
         columns: number of columns of numbers.
         samples: number of samples.
         first, last: their times, s.
+        left_out: names of messages that match a pattern, but need samples more often.
     """
 
     variables: list[str]
@@ -78,6 +79,7 @@ class Recorded:
     samples: int = 0
     first: float = 0.0
     last: float = 0.0
+    left_out: Sequence[str] = ()
 
 
 def record_file(source: Source, path: Union[str, os.PathLike], patterns: Union[str, Iterable[str], None] = None, *,
@@ -85,7 +87,7 @@ def record_file(source: Source, path: Union[str, os.PathLike], patterns: Union[s
                 branch: Optional[int] = None, progress: Optional[Progress] = None, name: str = "") -> Recorded:
     """Records variables of a run into a file (.parquet or .mcap) while it runs, so memory does not grow with its length.
 
-    Takes messages, too: images, contact points, what radios heard. After an error or Ctrl-C the file has all samples so far.
+    Takes messages, too: images, contact points, what radios heard (unless `every` is too long for them: `left_out`). After an error or Ctrl-C the file has all samples so far.
 
     Args:
         name: what the file calls the source; "": its path.
@@ -99,9 +101,9 @@ def record_file(source: Source, path: Union[str, os.PathLike], patterns: Union[s
         ends = (float(part.time[0]), float(part.time[-1])) if len(part.time) else (0.0, 0.0)
         return Recorded(list(part.variables), len(part.columns), len(part.time), *ends)
     run, last, ending = opened(source, start, until, branch)
-    variables = Variables(run, patterns, messages=True)
+    variables = Variables(run, patterns, messages=True, every=_ticks(run, every) * run.dt)
     names = [*dict.fromkeys(c.variable for c in variables.columns), *(m.name for m in variables.messages.variables)]
-    done = Recorded(names, len(variables.columns), first=run.time)
+    done = Recorded(names, len(variables.columns), first=run.time, left_out=tuple(variables.left_out))
     with writer_of(path, variables.columns, _facts(run, name or ending, variables), variables.messages.variables) as writer:
         for sim in _samples(run, last, every):
             writer.add(sim.time, variables.read(), variables.messages.read())
@@ -207,11 +209,16 @@ def opened(source: Source, start: Optional[float], until: Optional[float],
 
 def _samples(run: Run, last: float, every: float) -> Iterator[Run]:
     """The run at each time of a sample, until `last`, s."""
-    ticks = max(1, round(every / run.dt))
+    ticks = _ticks(run, every)
     yield run
     while run.tick + ticks <= round(last / run.dt):
         run.step(ticks)
         yield run
+
+
+def _ticks(run: Run, every: float) -> int:
+    """From sample to sample."""
+    return max(1, round(every / run.dt))
 
 
 def _part(recording: Recording, patterns: Union[str, Iterable[str], None], start: Optional[float],

@@ -21,6 +21,9 @@ if TYPE_CHECKING:
 
 SUFFIXES = (".parquet", ".mcap")      # that are written
 READABLE = (*SUFFIXES, ".csv")         # that are read
+#: Parts of poses and twists, with their units.
+POSE = (("x", "m"), ("y", "m"), ("z", "m"), ("qx", ""), ("qy", ""), ("qz", ""), ("qw", ""))
+TWIST = (("vx", "m/s"), ("vy", "m/s"), ("vz", "m/s"), ("wx", "rad/s"), ("wy", "rad/s"), ("wz", "rad/s"))
 
 
 @dataclass(frozen=True)
@@ -133,8 +136,8 @@ def writer_of(path: Union[str, os.PathLike], columns: Sequence[Column], facts: M
 
 
 def read(path: Union[str, os.PathLike]) -> Recording:
-    """Reads the numbers of a file of `write`, or of `roboss record`, or of a table (.csv). Its messages (images, contact points) are left out: pyarrow
-    and mcap read them.
+    """Reads the numbers of a file of `write`, or of `roboss record`, or of a table (.csv). Its messages (images, contact
+    points) are left out: pyarrow and mcap read them.
 
     Raises:
         RobossError: it cannot be read (code "no-recording").

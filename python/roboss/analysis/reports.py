@@ -196,7 +196,7 @@ def _squares(axes, squares: Sequence[Recording]) -> None:
 
 def walker_report(title: str, facts: Sequence[tuple[str, str]], time: Floats, transport: Optional[walker.TransportScore],
                   demands: dict[str, tuple[walker.JointDemand, str]], power: Floats) -> Report:
-    """Cost of transport, and the demand of each joint by name with the unit of its effort ("N m" or "N")."""
+    """Cost of transport, and the demand of each joint by name with the unit of its effort ("N m", "N", or "")."""
     report = Report(title, "Which motor does each joint need, and what does it cost to walk? Formulas and their sources: "
                            "docs/analysis.md.")
     report.table("Recording", ["What", "Value"], facts)
@@ -207,13 +207,13 @@ def walker_report(title: str, facts: Sequence[tuple[str, str]], time: Floats, tr
                      [[transport.cost, transport.cost_net, transport.distance, transport.speed, transport.energy,
                        transport.power]])
     report.heading("Joints")
-    turning = any(unit == "N m" for _, unit in demands.values())
-    effort, speed = ("N m", "rad/s") if turning else ("N", "m/s")
+    units = {unit for _, unit in demands.values()}  # "": not known, as in a table
+    effort, speed = ("N m", "rad/s") if "N m" in units else ("N", "m/s") if "N" in units else ("N m or N", "rad/s or m/s")
     columns = ["Joint", f"rms [{effort}]", f"50 % [{effort}]", f"95 % [{effort}]", f"99 % [{effort}]", f"peak [{effort}]",
                f"speed 95 % [{speed}]", f"peak speed [{speed}]", "power rms [W]", "peak power [W]", "mean power [W]"]
     rows = []
     for joint, (d, unit) in demands.items():
-        rows.append([joint + ("" if unit == effort else f" ({unit})"), d.effort_rms, *d.effort_quantiles, d.effort_peak,
+        rows.append([joint + ("" if unit in ("", effort) else f" ({unit})"), d.effort_rms, *d.effort_quantiles, d.effort_peak,
                      d.speed_quantiles[1], d.speed_peak, d.power_rms, d.power_peak, d.power_mean])
     report.table("Demand of each joint", columns, rows,
                  "A motor with its gear needs a continuous torque above rms, a peak torque above the peak, a speed above the "

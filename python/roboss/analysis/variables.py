@@ -12,10 +12,8 @@ from ..robots import Floats, Robots
 from ..run import Run
 from ..sensors import Sensor
 from .messages import AS_MESSAGES, WORLD_CONTACTS, Messages, kinds_of
-from .recording import Column, matches
+from .recording import POSE, TWIST, Column, matches
 
-_POSE = (("x", "m"), ("y", "m"), ("z", "m"), ("qx", ""), ("qy", ""), ("qz", ""), ("qw", ""))
-_TWIST = (("vx", "m/s"), ("vy", "m/s"), ("vz", "m/s"), ("wx", "rad/s"), ("wy", "rad/s"), ("wz", "rad/s"))
 _Read = Callable[[Robots], Any]  # gives (N, parts)
 
 
@@ -44,13 +42,15 @@ class Variables:
         run: a Simulation or RemoteSimulation.
         patterns: None: all.
         messages: choose messages, too: images, contact points, what radios heard (`messages`).
+        every: time between two samples, s. Messages that would be incomplete, as those of radios, are left out (`left_out`).
 
     Raises:
         UnknownNameError: a pattern matches nothing.
-        ArgumentError: a pattern matches only messages, which were not wanted (code "no-numbers").
+        ArgumentError: a pattern matches only messages, which were not wanted (code "no-numbers"), or only such that are left
+            out ("bad-value").
     """
 
-    def __init__(self, run: Run, patterns: Union[str, Iterable[str], None] = None, messages: bool = False):
+    def __init__(self, run: Run, patterns: Union[str, Iterable[str], None] = None, messages: bool = False, every: float = 0.0):
         wanted = None if patterns is None else [patterns] if isinstance(patterns, str) else list(patterns)
         self.columns: list[Column] = []  #: of the arrays of read()
         self._parts: list[tuple[Robots, _Read, list[int]]] = []
@@ -73,7 +73,8 @@ class Variables:
                     some = robots if len(rows) == len(robots) else robots[np.array(rows)]
                     self._parts.append((some, kind.read, [place for row in places for place in row]))
         self.messages = Messages(run)  #: those that match; of read_messages()
-        unmatched = self._choose_messages(run, wanted, unmatched, known, messages)
+        self.left_out: list[str] = []  #: messages that match, but need samples more often
+        unmatched = self._choose_messages(run, wanted, unmatched, known, messages, every)
         for pattern in unmatched:
             raise unknown("variable", pattern, known)
         self._chosen = [number for number, column in enumerate(self.columns)
@@ -82,25 +83,36 @@ class Variables:
         self.columns = [self.columns[number] for number in self._chosen]
 
     def _choose_messages(self, run: Run, wanted: Optional[list[str]], unmatched: set[str], known: list[str],
-                         takes: bool) -> set[str]:
+                         takes: bool, every: float) -> set[str]:
         """Adds the messages that match to self.messages, and all to the known names; gives the patterns that still match nothing."""
         if not takes and not unmatched:
             return unmatched  # sensors are not asked in vain
         chosen = Messages(run)
 
-        def fits(name: str) -> bool:
+        seldom: dict[str, tuple[str, float]] = {}  # by pattern: a message that it matches, and its longest pause
+
+        def fits(name: str, longest: float = np.inf) -> bool:
             known.append(name)
-            unmatched.difference_update([pattern for pattern in wanted or () if matches(pattern, Column(name, name))])
-            return wanted is None or any(matches(pattern, Column(name, name)) for pattern in wanted)
+            hit = [pattern for pattern in wanted or () if matches(pattern, Column(name, name))]
+            if takes and every > longest + 1e-9:
+                seldom.update((pattern, (name, longest)) for pattern in hit)
+                self.left_out += [name] if hit or wanted is None else []
+                return False
+            unmatched.difference_update(hit)
+            return wanted is None or bool(hit)
 
         before = set(unmatched)
         if fits(WORLD_CONTACTS.name):
             chosen.add_world_contacts()
         for robots in _by_type(run):
             for kind in kinds_of(robots):
-                rows = [row for row, robot in enumerate(robots.names) if fits(kind.variable(robot).name)]
+                rows = [row for row, robot in enumerate(robots.names) if fits(kind.variable(robot).name, kind.longest)]
                 if rows:
                     chosen.add(robots if len(rows) == len(robots) else robots[np.array(rows)], kind)
+        for pattern in unmatched & seldom.keys():
+            name, longest = seldom[pattern]
+            raise ArgumentError(f"'{name}' with {every:g} s between two samples: its sensor keeps messages for {longest:g} s",
+                                f"sample at least every {longest:g} s (--every), or leave '{pattern}' out", "bad-value")
         if takes:
             self.messages = chosen
         elif before != unmatched:
@@ -139,12 +151,12 @@ def _kinds(robots: Robots) -> list[_Kind]:
 
 
 def _of_base(robots: Robots) -> list[_Kind]:
-    kinds = [_Kind("pose", _POSE, "world", lambda r: r.pose)]
+    kinds = [_Kind("pose", POSE, "world", lambda r: r.pose)]
     for number, axis in enumerate("xyz"):
         kinds.append(_Kind(axis, (("", "m"),), "world", lambda r, n=number: r.pose[:, n]))
     kinds.append(_Kind("yaw", (("", "rad"),), "world", lambda r: yaw(r.pose[:, 3:])))
     if robots._facts.free_base:
-        kinds += [_Kind("twist", _TWIST, "world", lambda r: r.twist),
+        kinds += [_Kind("twist", TWIST, "world", lambda r: r.twist),
                   _Kind("speed", (("", "m/s"),), "", lambda r: np.linalg.norm(r.twist[:, :3], axis=1))]
     return kinds + [_Kind("energy", (("kinetic", "J"), ("potential", "J")), "", lambda r: r.energy),
                     _Kind("contacts", (("", ""),), "", _contacts),
@@ -174,8 +186,8 @@ def _of_joints(robots: Robots) -> list[_Kind]:
 def _of_links(robots: Robots) -> list[_Kind]:
     kinds = []
     for link in robots.links:
-        kinds += [_Kind(f"{link}.pose", _POSE, "world", lambda r, n=link: r.link_pose(n)),
-                  _Kind(f"{link}.twist", _TWIST, "world", lambda r, n=link: r.link_twist(n))]
+        kinds += [_Kind(f"{link}.pose", POSE, "world", lambda r, n=link: r.link_pose(n)),
+                  _Kind(f"{link}.twist", TWIST, "world", lambda r, n=link: r.link_twist(n))]
     return kinds
 
 
