@@ -81,7 +81,7 @@ def test_the_command_writes_the_world_and_tells_the_numbers(slide):
 
 @pytest.mark.parametrize("parameter, code", [
     ("mu=.//model[@name='bowl']//mu", "no-number"), ("mu=.//model[@name='box']", "no-number"), ("mu", "bad-value"),
-    ("mu=.//model[@name='box'", "bad-path"), (f"mu={MU}@0.5..1", "bad-bounds"), (f"mu={MU}@a..1", "bad-value"),
+    ("mu=.//model[@name='box'", "bad-path"), ("mu=.//mu[", "bad-path"), (f"mu={MU}@0.5..1", "bad-bounds"), (f"mu={MU}@a..1", "bad-value"),
     ("dt=.//physics/no_such_number", "no-number"), ("far=.//model[@name='ground']//mu", "no-influence"),
     ("mu=.//mu", "different-numbers")])
 def test_parameters_that_cannot_be_are_refused(slide, parameter, code):

@@ -133,6 +133,19 @@ def test_messages_are_not_taken_for_numbers():
 
 
 @pytest.mark.parametrize("suffix", ["mcap", "parquet"])
+@pytest.mark.parametrize("numbers", [["car_3.x"], []])
+def test_messages_of_a_file_are_told_from_names_that_it_does_not_have(tmp_path, suffix, numbers):
+    path = tmp_path / f"run.{suffix}"
+    analysis.record_file(CROSSROADS, path, ["car_3.contact_points", *numbers], until=0.02)
+    with pytest.raises(roboss.ArgumentError, match="car_3.contact_points") as caught:
+        analysis.read(path).select("car_3.contact_points")
+    assert caught.value.code == "no-numbers"
+    if numbers:
+        with pytest.raises(roboss.UnknownNameError):
+            analysis.read(path).select("car_3.contact_poin")
+
+
+@pytest.mark.parametrize("suffix", ["mcap", "parquet"])
 def test_a_run_that_fails_leaves_what_was_sampled(tmp_path, suffix):
     def stop(time, _):
         if time >= 0.05:

@@ -109,11 +109,35 @@ def test_the_list_has_all_variables_with_their_units():
     (["analyse", "arm", CROSSROADS, "--robot", "car_0"], 1, "free-base"),
     (["analyse", "legs", ARM], 2, "wrong-usage"),
     (["plot", ORDERS, "x"], 1, ""),
+    (["plot", "nofile.md", "x"], 1, "no-file"),
+    (["record", "no_such.journal", "*", "-o", "a.parquet"], 1, "no-file"),
+    (["analyse", "walker", "no_such.parquet"], 1, "no-file"),
+    (["record", ARM, "*", "--until", "1", "-o", "nodir/a.parquet"], 1, "no-file"),
+    (["plot", ARM, "arm.x", "--until", "1", "-o", "nodir/a.png"], 1, "no-file"),
+    (["record", ARM, "*", "--until", "-1", "-o", "a.parquet"], 1, "no-such-time"),
+    (["record", ARM, "*", "--from", "3", "--until", "1", "-o", "a.parquet"], 1, "bad-value"),
+    (["plot", ARM, "arm.x", "--until", "-2"], 1, "no-such-time"),
+    (["analyse", "arm", ARM, "--robot", "arm", "--link", "tol"], 1, "did you mean 'tool'?"),
+    (["analyse", "vehicle", CROSSROADS, "--robot", "car"], 1, "did you mean 'car_"),
+    (["analyse", "vehicle", CROSSROADS, "--left", "front_lef"], 1, "unknown-name"),
 ])
 def test_errors_have_codes_and_exit_codes(arguments, code, name, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     assert name in command(*arguments, code=code)
     assert not list(tmp_path.iterdir())
+
+
+def test_times_that_a_source_does_not_have_are_refused(journal, tmp_path):
+    path = tmp_path / "run.parquet"
+    analysis.write(analysis.record(CROSSROADS, "car_0.**", until=0.1), path)
+    for source, start, until, code in [(path, 3, None, "no-such-time"), (path, None, -1, "no-such-time"), (path, 0.1, 0, "bad-value"),
+                                       (journal, 0.6, 0.5, "bad-value"), (journal, None, 7, "no-such-time"),
+                                       (CROSSROADS, -1, 0.1, "no-such-time"), (CROSSROADS, 0, float("inf"), "no-such-time")]:
+        with pytest.raises(roboss.RobossError) as caught:
+            analysis.record(source, "car_0.speed", start=start, until=until)
+        assert caught.value.code == code and caught.value.remedy
+    assert "bad-value" in command("analyse", "walker", path, "--mass", -3, code=1)
+    assert "ends at 0.1 s" in command("analyse", "walker", path, "--robot", "car_0", "--from", 3, code=1)
 
 
 def test_a_damaged_file_is_refused(tmp_path):

@@ -7,7 +7,7 @@ from typing import Any, Iterable, Optional
 import numpy as np
 
 from ..errors import ArgumentError
-from .command import Parser, Progress
+from .command import Parser, Progress, check_folder
 from .recorder import is_journal, record
 from .record_command import add_common
 from .recording import READABLE, Recording, read, write
@@ -92,6 +92,7 @@ def _kind(kinds: Any, name: str, what: str, examples: str, source: str) -> Parse
 
 
 def run(options: Any) -> Any:
+    check_folder(options.output)
     report = {"arm": _arm, "vehicle": _vehicle, "walker": _walker}[options.kind](options, Progress("analyse", options.quiet))
     report.write(options.output)
     if not options.json:
@@ -110,6 +111,8 @@ def _arm(options: Any, progress: Progress) -> Any:
         return arm_report(f"Arm: {measured}", conditions, facts, exchange=exchange)
     if options.exchange:
         raise ArgumentError("--exchange with a world", "give a recording of each arm", "bad-value")
+    if options.keep:
+        check_folder(options.keep)
     from .arm_driver import ArmDriver, ArmTest
     load_options = {"ground": options.ground, "fixed_base": options.fixed_base}
     if options.cycles < 2 or options.servo_hz <= 0 or min(options.speeds) <= 0 or min(options.loads) < 0:
@@ -215,6 +218,8 @@ def _vehicle(options: Any, progress: Progress) -> Any:
 def _walker(options: Any, progress: Progress) -> Any:
     from . import walker
     from .reports import walker_report
+    if options.mass is not None and not 0 < options.mass < np.inf:
+        raise ArgumentError(f"a mass of {options.mass:g} kg", "give one above 0 (--mass)", "bad-value")
     robot = options.robot
     patterns = [f"{robot or '*'}.*.effort", f"{robot or '*'}.*.velocity", f"{robot or '*'}.pose"]
     recording = record(options.source, patterns, until=options.until, every=options.every, start=options.start,

@@ -16,6 +16,7 @@ import numpy as np
 
 from ..errors import ArgumentError
 from ..kinematics import RobotModel
+from ..names import unknown
 from ..robots import Floats
 from ..simulation import Simulation
 from ..trajectories import ctraj, jtraj
@@ -95,6 +96,8 @@ class ArmDriver:
         self.robot: str = test.robot or _only_arm(world)
         self.arm = RobotModel(world, self.robot)
         self.link: str = test.link or self.arm.links[-1]
+        if self.link not in (*self.arm.links, *self.arm.frames):
+            raise unknown("link", self.link, self.arm.links, f" of '{self.robot}'")
         if self.arm.free_base:
             raise ArgumentError(f"the base of '{self.robot}' is free", "fix it to the world (--fixed-base)", "free-base")
         self.rated: World = self._loaded(1.0)

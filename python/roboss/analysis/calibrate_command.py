@@ -3,13 +3,12 @@ from __future__ import annotations
 
 import math
 import re
-from pathlib import Path
 from typing import Any, Optional
 
 from ..errors import ArgumentError
-from .command import Parser, Progress
+from .command import Parser, Progress, check_folder
 from .record_command import add_common
-from .recording import read
+from .recording import existing, read
 
 _EXAMPLES = """Examples:
   roboss calibrate robot.sdf --run straight.parquet=straight.jsonl --run turn.parquet=turn.jsonl \\
@@ -53,8 +52,8 @@ def parser() -> Parser:
 
 def run(options: Any) -> Any:
     from .calibration import PATTERNS, Parameter, TestRun, calibrate
-    if options.output and not Path(options.output).absolute().parent.is_dir():
-        raise ArgumentError(f"there is no folder for '{options.output}'", "make it, or choose another one", "no-file")
+    if options.output:
+        check_folder(options.output)
     if options.fit_time is not None and not options.fit_time > 0:
         raise ArgumentError(f"--fit-time {options.fit_time:g}", "give the largest offset, in s, above 0", "bad-value")
     parameters = []
@@ -73,10 +72,10 @@ def run(options: Any) -> Any:
         found = _RUN.fullmatch(text)
         if not found:
             raise ArgumentError(f"a run '{text}'", "write FILE.parquet or FILE.parquet=ORDERS.jsonl (.mcap and .csv, too)", "bad-value")
-        runs.append(TestRun(read(_existing(found[1])), found[2] and _existing(found[2]), found[1]))
+        runs.append(TestRun(read(existing(found[1])), found[2] and existing(found[2]), found[1]))
     loading = {"ground": options.ground, "fixed_base": options.fixed_base, "dt": options.dt, "search_paths": options.path}
     result = calibrate(options.world, parameters, runs, compare=options.compare or PATTERNS,
-                       clients=[_existing(client) for client in options.client], options=loading,
+                       clients=[existing(client) for client in options.client], options=loading,
                        fit_start=options.fit_start, fit_time=options.fit_time,
                        progress=Progress("calibrate", options.quiet))
     if options.output:
@@ -113,12 +112,6 @@ def _print(result: Any) -> None:
 
 def _number(value: float) -> Optional[float]:
     return float(value) if math.isfinite(value) else None
-
-
-def _existing(path: str) -> str:
-    if not Path(path).is_file():
-        raise ArgumentError(f"there is no file '{path}'", "check its name", "no-file")
-    return path
 
 
 def _paths(text: str) -> list[str]:

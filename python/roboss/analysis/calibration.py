@@ -128,7 +128,8 @@ class WorldFile:
             try:
                 elements = self._root.findall(where)
             except (SyntaxError, TypeError, KeyError) as error:  # as ElementTree says it
-                raise ArgumentError(f"parameter '{parameter.name}': the path '{path}' is wrong: {error}",
+                reason = f": {error}" if isinstance(error, SyntaxError) else ", or not complete"
+                raise ArgumentError(f"parameter '{parameter.name}': the path '{path}' is wrong{reason}",
                                     "write it as ElementTree's XPath, for instance .//joint[@name='left']/axis/limit/effort",
                                     "bad-path") from error
             if not elements:

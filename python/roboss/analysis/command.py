@@ -6,9 +6,10 @@ import difflib
 import json
 import sys
 import time
+from pathlib import Path
 from typing import Any, NoReturn, Sequence
 
-from ..errors import RobossError
+from ..errors import ArgumentError, RobossError
 
 OK, BAD_INPUT, WRONG_USAGE, FAILED, INTERRUPTED = 0, 1, 2, 3, 130  # docs/command-line.md
 _EXIT_CODES = """Exit codes: 0 done, 1 an input is wrong or missing, 2 wrong usage, 3 the run failed or a file cannot be written,
@@ -59,6 +60,12 @@ def complain(message: str, code: str = "", remedy: str = "") -> None:
     print(f"roboss: {message}" + (f" [{code}]" if code else "") + (f"\n  remedy: {remedy}" if remedy else ""), file=sys.stderr)
 
 
+def check_folder(path: str) -> None:
+    """Refuses a file to write whose folder does not exist, before anything is computed."""
+    if not Path(path).absolute().parent.is_dir():
+        raise ArgumentError(f"there is no folder for '{path}'", "make it, or choose another one", "no-file")
+
+
 def main(arguments: Sequence[str]) -> NoReturn:
     """Runs `roboss ARGUMENTS`; the first names the command. Ends the process."""
     from . import analyse_command, calibrate_command, plot_command, record_command
@@ -84,5 +91,6 @@ def main(arguments: Sequence[str]) -> NoReturn:
                  "pip install pyarrow mcap matplotlib scipy, or roboss with its extra: roboss[analysis]")
         sys.exit(BAD_INPUT)
     except OSError as error:
-        complain(f"'{error.filename}': {error.strerror}", "cannot-write", "choose another file or folder")
+        what = f"'{error.filename}': {error.strerror}" if error.filename else str(error)  # pyarrow gives no file name
+        complain(what, "cannot-write", "choose another file or folder")
         sys.exit(FAILED)

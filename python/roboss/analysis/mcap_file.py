@@ -14,6 +14,7 @@ import numpy as np
 from mcap.reader import make_reader
 from mcap.writer import CompressionType, Writer
 
+from ..errors import ArgumentError
 from ..robots import Floats
 from .messages import MessageVariable
 from .recording import Column, Recording
@@ -68,8 +69,12 @@ def read_mcap(path: Union[str, os.PathLike]) -> Recording:
     """Reads the numbers of what McapWriter wrote. Raises ValueError if the channels have messages at different times."""
     with open(path, "rb") as stream:
         reader = make_reader(stream)
-        channels = {number: channel for number, channel in reader.get_summary().channels.items()
-                    if "roboss" in channel.metadata}
+        variables = {number: channel for number, channel in reader.get_summary().channels.items() if "variable" in channel.metadata}
+        channels = {number: channel for number, channel in variables.items() if "roboss" in channel.metadata}
+        messages = [channel.metadata["variable"] for number, channel in variables.items() if number not in channels]
+        if messages and not channels:
+            raise ArgumentError(f"'{os.fspath(path)}' holds only messages, not numbers: {', '.join(messages[:12])}",
+                                "record numbers, too; the package mcap reads messages", "no-numbers")
         if not channels:
             raise ValueError("it has no channels with numbers of RoBOSS")
         facts = next((json.loads(entry.metadata["facts"]) for entry in reader.iter_metadata() if entry.name == "roboss"), {})
@@ -85,7 +90,7 @@ def read_mcap(path: Union[str, os.PathLike]) -> Recording:
     columns = [Column(place["name"], channel.metadata["variable"], place["unit"], place["frame"])
                for number, channel in channels.items() for place in places[number]]
     values = np.concatenate([np.array(rows[number], dtype=float).reshape(len(times), -1) for number in channels], axis=1)
-    return Recording(np.array(list(times)) / 1e9, columns, values, facts)
+    return Recording(np.array(list(times)) / 1e9, columns, values, facts, messages)
 
 
 class _Channel:

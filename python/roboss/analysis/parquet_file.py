@@ -92,7 +92,8 @@ def read_parquet(path: Union[str, os.PathLike]) -> Recording:
             columns.append(Column(field.name, notes.get("variable", field.name), notes.get("unit", ""), notes.get("frame", "")))
             values.append(data)
     facts = json.loads((file.schema_arrow.metadata or {}).get(b"roboss", b"{}"))
-    return Recording(time, columns, np.array(values).T.reshape(len(time), len(columns)), facts)
+    messages = [field.name for field in file.schema_arrow if b"units" in (field.metadata or {})]
+    return Recording(time, columns, np.array(values).T.reshape(len(time), len(columns)), facts, messages)
 
 
 def _type_of(layout: Layout) -> pyarrow.DataType:

@@ -4,7 +4,7 @@ from __future__ import annotations
 from typing import Any
 
 from ..errors import ArgumentError
-from .command import Parser, Progress
+from .command import Parser, Progress, check_folder
 from .recorder import record
 from .record_command import add_common
 
@@ -33,6 +33,7 @@ def run(options: Any) -> Any:
     from . import pictures
     if not options.output.endswith((".png", ".svg", ".pdf")):
         raise ArgumentError(f"a picture named '{options.output}'", "end the name in .png, .svg or .pdf", "unknown-format")
+    check_folder(options.output)
     progress = Progress("plot", options.quiet)
     patterns = options.variables + ([options.against] if options.against else [])
     recording = record(options.source, patterns, until=options.until, every=options.every, start=options.start,

@@ -8,9 +8,9 @@ from pathlib import Path
 from typing import Any
 
 from ..errors import ArgumentError
-from .command import Parser, Progress
-from .recorder import is_journal, journal_of_run, opened, record_file
-from .recording import SUFFIXES
+from .command import Parser, Progress, check_folder
+from .recorder import check_order, is_journal, journal_of_run, opened, record_file
+from .recording import SUFFIXES, existing
 from .variables import Variables
 
 _EXAMPLES = """Variables are named ROBOT.WHAT; * ? [...] match many, up to the next dot, and ** beyond dots. --list shows all that a source has, with units.
@@ -62,6 +62,9 @@ def run(options: Any) -> Any:
     if not options.list and (options.output is None or Path(options.output).suffix not in SUFFIXES):
         raise ArgumentError("no file to write" if options.output is None else f"a file named '{options.output}'",
                             "give -o FILE.parquet or -o FILE.mcap", "unknown-format")
+    existing(options.source)
+    if not options.list:
+        check_folder(options.output)
     progress, begin = Progress("record", options.quiet), time.monotonic()
     with ExitStack() as stack:
         source = options.source
@@ -70,6 +73,7 @@ def run(options: Any) -> Any:
                 raise ArgumentError("--orders or --client with a journal", "leave them out: it has its orders", "bad-value")
             if options.until is None:
                 raise ArgumentError("a world has no end", "say until which time (--until)", "no-end")
+            check_order(options.start, options.until)
             progress.note("runs the world into a journal")
             folder = stack.enter_context(tempfile.TemporaryDirectory(prefix="roboss_record_"))
             source = journal_of_run(source, options.until, folder, orders=options.orders, clients=options.client)
@@ -91,7 +95,7 @@ def run(options: Any) -> Any:
 
 
 def _list(options: Any) -> Any:
-    until = options.until if options.until is not None else None if is_journal(options.source) else 0.0
+    until = options.until if options.until is not None else None if is_journal(options.source) else options.start or 0.0
     run_of, _, _ = opened(options.source, options.start, until, options.branch)
     variables = Variables(run_of, options.variables or None, messages=True)
     found: dict[str, list] = {}

@@ -17,7 +17,7 @@ from ..kinematics import RobotModel
 from ..run import Run
 from ..simulation import Simulation
 from ..world import World, load
-from .recording import READABLE, Recording, read, write, writer_of
+from .recording import READABLE, Recording, existing, read, write, writer_of
 from .variables import Variables
 
 Source = Union[str, os.PathLike, World, Simulation, Journal]
@@ -172,9 +172,7 @@ def is_journal(path: Union[str, os.PathLike]) -> bool:
 
 def opened_world(path: Union[str, os.PathLike], **options) -> World:
     """load(), without its warnings: a recording is not the place for them (`roboss check` has them)."""
-    if not Path(path).is_file():
-        raise ArgumentError(f"there is no file '{os.fspath(path)}'", "give a world, a journal or a recording", "no-file")
-    return quietly_loaded(path, **options)
+    return quietly_loaded(existing(path), **options)
 
 
 def quietly_loaded(world: Union[str, os.PathLike], **options) -> World:
@@ -187,6 +185,9 @@ def quietly_loaded(world: Union[str, os.PathLike], **options) -> World:
 def opened(source: Source, start: Optional[float], until: Optional[float],
            branch: Optional[int]) -> tuple[Run, float, str]:
     """The run at its first sample, the time of the last, and what it is."""
+    if not isinstance(source, (World, Simulation, Journal)):
+        existing(source)
+    check_order(start, until)
     if isinstance(source, Journal) or (not isinstance(source, (World, Simulation)) and is_journal(source)):
         journal = source if isinstance(source, Journal) else Journal(source)
         first, last = journal.times(branch)
@@ -202,9 +203,18 @@ def opened(source: Source, start: Optional[float], until: Optional[float],
     else:
         world = source if isinstance(source, World) else opened_world(source)
         sim, name = Simulation(world), world.file
+    for time in (start, until):
+        if time is not None and not sim.time - 1e-9 <= time < np.inf:
+            raise ArgumentError(f"'{name}' has no time {time:g} s", f"give {sim.time:g} s or later (--from, --until)", "no-such-time")
     if start is not None and start > sim.time:
         sim.step(round(start / sim.dt) - sim.tick)
     return sim, until, name
+
+
+def check_order(start: Optional[float], until: Optional[float]) -> None:
+    """Refuses a range of times that ends before it starts."""
+    if start is not None and until is not None and not start <= until:
+        raise ArgumentError(f"times from {start:g} to {until:g} s", "let them end after they start (--from, --until)", "bad-value")
 
 
 def _samples(run: Run, last: float, every: float) -> Iterator[Run]:
@@ -224,11 +234,15 @@ def _ticks(run: Run, every: float) -> int:
 def _part(recording: Recording, patterns: Union[str, Iterable[str], None], start: Optional[float],
           until: Optional[float]) -> Recording:
     """Some columns and times of a recording."""
+    check_order(start, until)
     chosen = range(len(recording.columns)) if patterns is None else recording.select(patterns)
     rows = np.ones(len(recording.time), dtype=bool)
     if start is not None:
         rows &= recording.time >= start - 1e-9
     if until is not None:
         rows &= recording.time <= until + 1e-9
+    if not rows.any():
+        ends = f"it begins at {recording.time[0]:g} s and ends at {recording.time[-1]:g} s" if len(rows) else "it is empty"
+        raise ArgumentError(f"the recording has no sample at these times: {ends}", "give times between these (--from, --until)", "no-such-time")
     columns = [recording.columns[number] for number in chosen]
     return Recording(recording.time[rows], columns, recording.values[rows][:, list(chosen)], recording.facts)

@@ -51,14 +51,17 @@ class Recording:
         columns: descriptions of the columns, in their order.
         values: (T, columns).
         facts: what else is known: "world", "world_hash", "dt", "source", "mass_kg" (by robot), "gravity".
+        messages: names of variables of the file that hold messages (images, contact points); they have no columns here.
 
     >>> recording = roboss.analysis.record(roboss.example("crossroads.sdf"), ["car_3.speed", "car_3.pose"], until=0.1)
     >>> recording["car_3.speed"].shape, recording["car_3.pose"].shape, recording["car_3.pose.z"].shape
     ((11,), (11, 7), (11,))
     """
 
-    def __init__(self, time: Floats, columns: Sequence[Column], values: Floats, facts: Union[dict[str, Any], None] = None):
+    def __init__(self, time: Floats, columns: Sequence[Column], values: Floats, facts: Union[dict[str, Any], None] = None,
+                 messages: Sequence[str] = ()):
         self.time, self.columns, self.values, self.facts = time, tuple(columns), values, dict(facts or {})
+        self.messages = tuple(messages)
         if values.shape != (len(time), len(self.columns)):
             raise ArgumentError(f"values of shape {values.shape} for {len(time)} times and {len(self.columns)} columns",
                                 code="bad-shape")
@@ -71,13 +74,13 @@ class Recording:
     def select(self, patterns: Union[str, Iterable[str]]) -> list[int]:
         """Numbers of the columns of variables, or single columns, that match one of the patterns (`*`, `?`, `[...]`, `**`).
 
-        Raises UnknownNameError where a pattern matches none.
+        Raises UnknownNameError where a pattern matches none, ArgumentError where it matches only messages (code "no-numbers").
         """
         found: dict[int, None] = {}
         for pattern in [patterns] if isinstance(patterns, str) else patterns:
             some = [number for number, column in enumerate(self.columns) if matches(pattern, column)]
             if not some:
-                raise unknown("variable", pattern, self.variables)
+                raise self._missing(pattern)
             found.update(dict.fromkeys(some))
         return list(found)
 
@@ -85,8 +88,16 @@ class Recording:
         """(T,) of a column or of a variable of one column, (T, columns) of a variable of several."""
         numbers = [number for number, column in enumerate(self.columns) if name in (column.name, column.variable)]
         if not numbers:
-            raise unknown("variable", name, self.variables)
+            raise self._missing(name)
         return self.values[:, numbers[0]] if len(numbers) == 1 else self.values[:, numbers]
+
+    def _missing(self, pattern: str) -> RobossError:
+        """The exception: no column matches."""
+        for name in self.messages:
+            if matches(pattern, Column(name, name)):
+                return ArgumentError(f"'{name}' holds messages, not numbers", "leave it out; pyarrow and mcap read messages",
+                                     "no-numbers")
+        return unknown("variable", pattern, self.variables)
 
     def __contains__(self, name: str) -> bool:
         return any(name in (column.name, column.variable) for column in self.columns)
@@ -140,8 +151,9 @@ def read(path: Union[str, os.PathLike]) -> Recording:
     points) are left out: pyarrow and mcap read them.
 
     Raises:
-        RobossError: it cannot be read (code "no-recording").
+        RobossError: there is no such file (code "no-file"), or it cannot be read ("no-recording").
     """
+    existing(path)
     suffix = Path(path).suffix
     try:
         if suffix == ".csv":
@@ -160,6 +172,13 @@ def read(path: Union[str, os.PathLike]) -> Recording:
             raise
         raise RobossError(f"'{os.fspath(path)}' cannot be read: {error}", "give a file that `roboss record` wrote",
                           "no-recording") from error
+
+
+def existing(path: Union[str, os.PathLike]) -> str:
+    """The path of a file that exists. Raises ArgumentError (code "no-file") if it does not."""
+    if not Path(path).is_file():
+        raise ArgumentError(f"there is no file '{os.fspath(path)}'", "check its name", "no-file")
+    return os.fspath(path)
 
 
 def _suffix(path: Union[str, os.PathLike]) -> str:

@@ -8,6 +8,7 @@ from typing import Callable, Optional, Sequence, Union
 import numpy as np
 
 from ..errors import ArgumentError
+from ..names import index_of, unknown
 from ..robots import Floats
 from ..simulation import Simulation
 from . import vehicle
@@ -54,6 +55,8 @@ class VehicleDriver:
     def __init__(self, test: VehicleTest, progress: Callable[[str], None] = lambda name: None):
         self.test, self._progress = test, progress
         world = opened_world(test.world, **test.load_options)
+        if test.robot and test.robot not in world.robots:
+            raise unknown("robot", test.robot, world.robots, f" in '{os.fspath(test.world)}'")
         self.sim = Simulation(world)
         self.robot = test.robot or _first_vehicle(self.sim)
         others = [name for name in world.robots if name != self.robot]
@@ -65,7 +68,8 @@ class VehicleDriver:
         if not self.left or not self.right:
             raise ArgumentError(f"'{self.robot}' has no joints with 'left' and 'right' in their names",
                                 "name its wheels (--left, --right)", "no-wheels")
-        self._columns = [[self.vehicle.joints.index(name) for name in side] for side in (self.left, self.right)]
+        joints = list(self.vehicle.joints)
+        self._columns = [[index_of("joint", name, joints, f" of '{self.robot}'") for name in side] for side in (self.left, self.right)]
         self._period = max(1, round(_CONTROL / self.sim.dt))  # ticks between two orders
         self._start = self.sim.save()
         self.wheel_radius: float = self._rolled()
