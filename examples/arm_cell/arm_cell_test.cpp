@@ -169,5 +169,14 @@ TEST(ArmCells, AShortRunReportsItsCountsAtItsEnd) {
     std::filesystem::remove(file);
 }
 
+TEST(ArmCells, AResultFileThatCannotBeWrittenEndsTheRunAtItsStart) {
+    for (const char* variable : {"ROBOSS_CELLS_RESULT", "ROBOSS_CELLS_FEEDER_RESULT"}) {
+        ::setenv(variable, "/no_such_folder/cells.json", 1);
+        auto one = cells(compiled(roboss::cell_sdf({1, "fingers"})), 1);
+        EXPECT_FALSE(one->run_until(50).ok()) << variable;
+        ::unsetenv(variable);
+    }
+}
+
 }  // namespace
 }  // namespace arm_cell

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include <roboss/client/control_program.h>
+#include "../result_file.h"
 #include "cell.h"
 #include "reporting.h"
 
@@ -17,6 +18,7 @@ namespace {
 constexpr double kFingerSpeed = 0.2;  // m/s
 constexpr double kFingerMotor = 50;   // N, on both fingers: each pad presses with half of it
 constexpr const char* kBeltCommand = "link/belt/track_cmd_vel";
+constexpr const char* kResult = "ROBOSS_CELLS_RESULT";
 
 /// The ids of a cell in the world.
 struct Devices {
@@ -54,6 +56,7 @@ void CellProgram::start(roboss::Client& client) {
     devices_.clear();
     cells_.clear();
     period_s_ = report_period_s();
+    examples::check_result_file(kResult);
     const roboss::Model& model = client.model();
     for (int number = 0; model.find_robot(arm_name(number)) && model.find_robot(feed_name(number));
          ++number) {
@@ -125,7 +128,7 @@ void CellProgram::report_all(double time_s) const {
     std::string line = "{\"time_s\": " + std::to_string(static_cast<long>(time_s)) + ", \"cells\": [";
     for (const Cell& cell : cells_)
         line += (&cell == cells_.data() ? "{" : ", {") + summary(cell.state) + "}";
-    report(line + "]}", "ROBOSS_CELLS_RESULT");
+    report(line + "]}", kResult);
 }
 
 void CellProgram::control(roboss::Client& client) {

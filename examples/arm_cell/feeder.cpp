@@ -10,6 +10,7 @@
 
 #include <roboss/app/worlds/cell_layout.h>
 #include <roboss/client/control_program.h>
+#include "../result_file.h"
 #include "core/fixed_math.h"
 #include "core/noise.h"
 #include "reporting.h"
@@ -17,6 +18,7 @@
 namespace arm_cell {
 namespace {
 
+constexpr const char* kResult = "ROBOSS_CELLS_FEEDER_RESULT";
 constexpr double kLook = 0.1;                                // s, between two looks
 constexpr double kLeastSpacing = 0.22, kMoreSpacing = 0.18;  // m along the belt, the second at random
 constexpr double kAside = 0.035;                             // m, at most from the middle of the belt
@@ -57,6 +59,7 @@ class Feeder final : public roboss::ControlProgram {
 void Feeder::start(roboss::Client& client) {
     stocks_.clear();
     period_s_ = report_period_s();
+    examples::check_result_file(kResult);
     for (int cell = 0; client.model().find_robot(box_name(cell, 0)); ++cell) {
         Stock stock;
         const roboss::Vec3 base = client.pose(arm_name(cell), roboss::LinkId(0u)).p;
@@ -131,7 +134,7 @@ void Feeder::report_all(double time_s) const {
     report("{\"time_s\": " + std::to_string(static_cast<long>(time_s)) +
                ", \"fed\": " + std::to_string(sum.fed) + ", \"delivered\": " + std::to_string(sum.delivered) +
                ", \"fallen\": " + std::to_string(sum.fallen) + "}",
-           "ROBOSS_CELLS_FEEDER_RESULT");
+           kResult);
 }
 
 void Feeder::control(roboss::Client& client) {

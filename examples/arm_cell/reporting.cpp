@@ -2,8 +2,9 @@
 
 #include <cstdio>
 #include <cstdlib>
-#include <fstream>
 #include <stdexcept>
+
+#include "../result_file.h"
 
 namespace arm_cell {
 
@@ -20,13 +21,7 @@ double report_period_s() {
 void report(const std::string& line, const char* variable) {
     std::printf("%s\n", line.c_str());
     std::fflush(stdout);
-    const char* file = std::getenv(variable);
-    if (file == nullptr) return;
-    std::ofstream out(file);
-    out << line << "\n" << std::flush;
-    if (!out)
-        throw std::runtime_error(std::string("cannot write the report to ") + file + "\n  remedy: set " +
-                                 variable + " to a file in a writable folder");
+    examples::write_result(line, variable);
 }
 
 void report_at_end(const std::function<void()>& report) noexcept {

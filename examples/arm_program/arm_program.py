@@ -25,9 +25,13 @@ import warnings
 from dataclasses import dataclass, field
 from pathlib import Path
 
-import numpy as np
+sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
+from imports import needed  # noqa: E402
 
-import roboss
+with needed():
+    import numpy as np
+
+    import roboss
 
 KNOTS = 40          # of a line, for inverse kinematics
 SAMPLES = 200       # of a motion, for velocities and torques

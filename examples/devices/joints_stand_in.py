@@ -15,7 +15,7 @@ import random
 import select
 import socket
 
-from stand_in import Diary, Hardware, guarded, say
+from stand_in import Diary, Hardware, guarded, say, share
 
 VERSION = 1
 
@@ -168,6 +168,10 @@ class Beat:
         return True
 
 
+def is_port(text):
+    return text.isdecimal() and int(text) <= 65535
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("world", help="world file that plays the real world")
@@ -176,9 +180,9 @@ def main():
     parser.add_argument("--rate", type=float, default=100, help="readings a second")
     parser.add_argument("--frames", type=float, default=60, help="images of the camera a second")
     parser.add_argument("--noise", type=float, default=0.0, help="of joints, rad, standard deviation")
-    parser.add_argument("--loss", type=float, default=0.0, help="share of the packets that are lost")
-    parser.add_argument("--late", type=float, default=0.0, help="share that comes 20 to 80 ms late")
-    parser.add_argument("--double", type=float, default=0.0, help="share that comes twice")
+    parser.add_argument("--loss", type=share, default=0.0, help="share of the packets that are lost")
+    parser.add_argument("--late", type=share, default=0.0, help="share that comes 20 to 80 ms late")
+    parser.add_argument("--double", type=share, default=0.0, help="share that comes twice")
     parser.add_argument("--drift", type=float, default=0.0, help="how much too fast its clock is: 0.02 is 2 %%")
     parser.add_argument("--reboot-at", type=float, action="append", default=[], help="s, by its clock (may be repeated)")
     parser.add_argument("--duration", type=float, default=0.0, help="s; 0: until SIGTERM")
@@ -186,9 +190,13 @@ def main():
     options = parser.parse_args()
     if min(options.rate, options.frames) <= 0:
         parser.error("--rate and --frames take numbers above 0")
+    if not options.robot and options.camera is None:
+        parser.error("nothing to play: give --robot NAME:PORT, --camera PORT or both")
     for each in options.robot:
-        if not each.partition(":")[2].isdigit():
-            parser.error(f"--robot {each}: write NAME:PORT, for instance blue_0:2008")
+        if not is_port(each.partition(":")[2]):
+            parser.error(f"--robot {each}: write NAME:PORT, for instance blue_0:2008; a port is at most 65535")
+    if not is_port(str(options.camera or 0)):
+        parser.error(f"--camera {options.camera}: a port is a number from 0 to 65535")
     hardware = Hardware(options.world, options.drift, options.seed)
     robots = []
     for each in options.robot:

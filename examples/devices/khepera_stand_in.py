@@ -14,7 +14,7 @@ import pty
 import select
 import tty
 
-from stand_in import Diary, Hardware, guarded, say
+from stand_in import Diary, Hardware, guarded, say, share
 
 EYES = ["left", "front_left", "ahead_left", "ahead_right", "front_right", "right", "back_right", "back_left"]
 PULSE = 2 * math.pi / 600           # rad
@@ -136,7 +136,7 @@ def main():
     parser.add_argument("world", help="world file that plays the real world")
     parser.add_argument("--robot", default="khepera")
     parser.add_argument("--baud", type=int, default=38400)
-    parser.add_argument("--drop", type=float, default=0.0, help="share of the characters that are lost, both ways")
+    parser.add_argument("--drop", type=share, default=0.0, help="share of the characters that are lost, both ways")
     parser.add_argument("--drift", type=float, default=0.0, help="how much too fast its clock is: 0.02 is 2 %%")
     parser.add_argument("--reboot-at", type=float, action="append", default=[], help="s, by its clock (may be repeated)")
     parser.add_argument("--duration", type=float, default=0.0, help="s; 0: until SIGTERM")

@@ -2,6 +2,7 @@
 
 A stand-in plays a real robot for `roboss device`. It shares nothing with the control program but the line.
 """
+import argparse
 import json
 import random
 import signal
@@ -9,7 +10,11 @@ import sys
 import time
 from pathlib import Path
 
-import roboss
+sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
+from imports import needed  # noqa: E402
+
+with needed():
+    import roboss
 
 
 def guarded(main):
@@ -19,6 +24,14 @@ def guarded(main):
     except (roboss.RobossError, OSError) as error:
         print(f"{Path(sys.argv[0]).stem}: {error}", file=sys.stderr)
         sys.exit(2)
+
+
+def share(text):
+    """Type of an option that takes a probability."""
+    value = float(text)
+    if not 0 <= value <= 1:
+        raise argparse.ArgumentTypeError("give a share from 0 to 1")
+    return value
 
 
 class Hardware:

@@ -8,12 +8,17 @@ Each robot turns to where its laser sees most room, and slows down for what its 
 (DiffDrive) makes wheel speeds of that, with bounded accelerations. Laser and sonars of all robots are arrays.
 """
 import argparse
+import sys
 import time
 from pathlib import Path
 
-import numpy as np
+sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
+from imports import needed  # noqa: E402
 
-import roboss
+with needed():
+    import numpy as np
+
+    import roboss
 
 ROBOT = Path(__file__).with_name("wanderer.sdf")
 PERIOD = 0.1                                              # s, between two decisions
@@ -65,8 +70,8 @@ def main():
     parser.add_argument("--seconds", type=float, default=60, help="simulated time")
     parser.add_argument("--view", action="store_true", help="show them on the viewer's page, in real time")
     arguments = parser.parse_args()
-    if arguments.robots < 1:
-        parser.error("give one robot or more")
+    if arguments.robots < 1 or not arguments.seconds > 0:
+        parser.error("give one robot or more, and a time above 0")
     sim = roboss.Simulation(crowd_world(arguments.robots))
     robots = sim.robots("robot_*")
     view = sim.view() if arguments.view else None

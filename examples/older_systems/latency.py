@@ -9,10 +9,16 @@ c = kd / J the rod obeys x'' = a x - b x(t - T) - c x'(t - T). It begins to osci
 |b + i c w| = w^2 + a, at T = atan2(c w, b) / w (characteristic equation on the imaginary axis).
 """
 import argparse
+import sys
+from pathlib import Path
 
-import numpy as np
+sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
+from imports import needed  # noqa: E402
 
-import roboss
+with needed():
+    import numpy as np
+
+    import roboss
 
 LENGTH, MASS = 1.0, 1.0                                   # m, kg
 

@@ -9,16 +9,23 @@ files (the commands that this program prints).
 """
 import argparse
 import json
+import sys
 import tempfile
 import warnings
 import xml.etree.ElementTree as xml
 from pathlib import Path
 
-import numpy as np
+sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
+from imports import needed  # noqa: E402
 
-import roboss
-from roboss.analysis import Recording, calibration, record, write
-from roboss.analysis.recorder import journal_of_run
+with needed():
+    import numpy as np
+    import pyarrow  # noqa: F401 (roboss.analysis imports these two when it needs them)
+    import scipy  # noqa: F401
+
+    import roboss
+    from roboss.analysis import Recording, calibration, record, write
+    from roboss.analysis.recorder import journal_of_run
 
 TORQUE = calibration.Parameter("torque", (".//joint/axis/limit/effort",))
 FRICTION = calibration.Parameter("friction", (".//collision[@name='tyre']/surface/friction/ode/mu",

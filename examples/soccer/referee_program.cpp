@@ -1,19 +1,19 @@
 // The referee as a control program: `roboss run soccer.sdf --client roboss_soccer_referee.so ...`
 // (docs/soccer.md). It prints a JSON line for each decision, and writes the last one to ROBOSS_SOCCER_RESULT.
 #include <cstdio>
-#include <cstdlib>
-#include <fstream>
 #include <optional>
 #include <sstream>
-#include <stdexcept>
 #include <utility>
 
 #include <roboss/client/control_program.h>
+#include "../result_file.h"
 #include "core/fixed_math.h"
 #include "referee.h"
 
 namespace soccer {
 namespace {
+
+constexpr const char* kResult = "ROBOSS_SOCCER_RESULT";
 
 Scene scene_of(roboss::Client& client, const Pitch& pitch) {
     const auto mover = [&](roboss::RobotId robot) {
@@ -32,6 +32,7 @@ class RefereeProgram final : public roboss::ControlProgram {
     roboss::ControlOptions options() const override { return {kFrame, -1, true}; }
 
     void start(roboss::Client& client) override {
+        examples::check_result_file(kResult);
         pitch_ = Pitch::of(client);
         referee_.emplace(pitch_.field, half_length_s());
     }
@@ -91,13 +92,7 @@ void RefereeProgram::report(const Scene& scene, const Decision& decision) const 
         scene.time_s, name_of(decision.call), name_of(decision.team), s.score[0], s.score[1]);
     std::printf("%s\n", line);
     std::fflush(stdout);
-    const char* file = std::getenv("ROBOSS_SOCCER_RESULT");
-    if (decision.call != Call::kFullTime || file == nullptr) return;
-    std::ofstream out(file);
-    out << line << "\n" << std::flush;
-    if (!out)
-        throw std::runtime_error(std::string("cannot write the result to ") + file +
-                                 "\n  remedy: set ROBOSS_SOCCER_RESULT to a file in a writable folder");
+    if (decision.call == Call::kFullTime) examples::write_result(line, kResult);
 }
 
 /// The world may have no scoreboard; then the order is refused, and the score is in the log only.

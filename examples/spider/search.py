@@ -12,11 +12,15 @@ import sys
 import time
 from pathlib import Path
 
-import numpy as np
+sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
+from imports import needed  # noqa: E402
 
-import roboss
-from gait import GaitError, Gaits
-from walking import Walker
+with needed():
+    import numpy as np
+
+    import roboss
+    from gait import GaitError, Gaits
+    from walking import Walker
 
 PROGRAMS = Path(__file__).parents[2] / "build/release/bin"
 # What is searched, with its range; the phases stay those of alternating tripods.
@@ -61,6 +65,11 @@ class Search:
         self.low, self.high = np.array(list(RANGES.values())).T
         self.first = self.gaits.load(options.start) if options.start else self.gaits.default
         self.spider_seconds = 0.0
+        with needed():
+            import cma
+        start = np.clip((self.first[self.columns] - self.low) / (self.high - self.low), 0.02, 0.98)
+        self.strategy = cma.CMAEvolutionStrategy(start, 0.2, {"bounds": [0, 1], "popsize": options.spiders,
+                                                              "seed": options.seed + 1, "verbose": -9})
 
     def rows(self, points):
         """Gaits of points of the unit cube."""
@@ -69,11 +78,7 @@ class Search:
         return rows
 
     def run(self):
-        import cma
-        options = self.options
-        start = np.clip((self.first[self.columns] - self.low) / (self.high - self.low), 0.02, 0.98)
-        strategy = cma.CMAEvolutionStrategy(start, 0.2, {"bounds": [0, 1], "popsize": options.spiders, "seed": options.seed + 1,
-                                                         "verbose": -9})
+        options, strategy = self.options, self.strategy
         best, begin = (-np.inf, None), time.perf_counter()
         for generation in range(options.generations):
             points = strategy.ask()
@@ -119,13 +124,21 @@ def options_of(arguments):
     parser.add_argument("--seconds", type=float, default=3.0, help="of each walk; its second half counts (default 3)")
     parser.add_argument("--seed", type=int, default=0)
     parser.add_argument("-o", "--output", required=True, help="file for the best gait (TOML), for ROBOSS_SPIDER_GAIT and --start")
-    return parser.parse_args(arguments)
+    options = parser.parse_args(arguments)
+    if options.spiders < 2 or options.generations < 1 or not options.seconds >= 0.1:
+        parser.error("give two spiders or more, one generation or more, and 0.1 s or more")
+    return options
 
 
 def main(arguments=None):
     options = options_of(arguments)
     try:
         search = Search(options)
+        with open(options.output, "a"):
+            pass
+    except OSError as error:
+        print(f"search: cannot write {options.output}: {error.strerror}\n  remedy: give a file in a writable folder", file=sys.stderr)
+        return 2
     except (GaitError, roboss.RobossError) as error:
         print(f"search: {error}", file=sys.stderr)
         return 2

@@ -8,13 +8,18 @@ them master each.
 """
 import argparse
 import sys
+from pathlib import Path
 
-import numpy as np
+sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
+from imports import needed  # noqa: E402
 
-import roboss
-from gait import GaitError, Gaits
-from search import world_of
-from walking import Walker, upright
+with needed():
+    import numpy as np
+
+    import roboss
+    from gait import GaitError, Gaits
+    from search import world_of
+    from walking import Walker, upright
 
 BEGIN, BEYOND = 0.6, 2.8  # m: where the terrain begins, and how far a spider has to come
 TERRAINS = {"rubble": ("height", np.arange(0.01, 0.101, 0.01)), "slope": ("angle", np.arange(5, 51, 5.0)),

@@ -34,7 +34,11 @@ def test_a_gait_that_is_none(tmp_path, text):
 @pytest.mark.parametrize("script, words", [
     (TERRAIN, [EXAMPLES / "spider/gaits/walk.toml", "--spiders", 0]),
     ("spider/search.py", ["--start", "no_such.toml", "-o", "a.toml"]),
-    (STAND_IN, ["no_such.sdf"]), (STAND_IN, [SOCCER, "--robot", "blue_0"]), (STAND_IN, [SOCCER, "--robot", "green_0:0"]),
+    ("spider/search.py", ["--generations", 0, "-o", os.devnull]), ("spider/search.py", ["-o", "/no_such_folder/a.toml"]),
+    ("older_systems/crowd.py", ["--seconds", -1]),
+    (STAND_IN, ["no_such.sdf", "--camera", 0]), (STAND_IN, [SOCCER]), (STAND_IN, [SOCCER, "--robot", "blue_0:80000"]),
+    (STAND_IN, [SOCCER, "--camera", 80000]), (STAND_IN, [SOCCER, "--camera", 0, "--loss", 2]),
+    ("devices/khepera_stand_in.py", [REPOSITORY / "worlds/khepera.sdf", "--drop", 2]), (STAND_IN, [SOCCER, "--robot", "blue_0"]), (STAND_IN, [SOCCER, "--robot", "green_0:0"]),
     (STAND_IN, [SOCCER, "--camera", 0, "--frames", 0]), ("devices/khepera_stand_in.py", ["no_such.sdf"]),
     ("devices/khepera_stand_in.py", [SOCCER]), ("devices/khepera_stand_in.py", [REPOSITORY / "worlds/khepera.sdf", "--baud", 0]),
     ("arm_program/arm_program.py", ["no_such.urdf", PROGRAM]), ("arm_program/arm_program.py", [ARM, "no_such.txt"]),
@@ -46,6 +50,18 @@ def test_a_gait_that_is_none(tmp_path, text):
 ])
 def test_wrong_input(script, words):
     refusal(script, *words)
+
+
+@pytest.mark.parametrize("script, package, words", [
+    ("spider/search.py", "cma", ["-o", os.devnull]), ("spider/search.py", "roboss", ["-o", os.devnull]),
+    ("soccer/calibrate.py", "pyarrow", []), ("arm_program/arm_program.py", "roboss", [ARM, PROGRAM]),
+    ("older_systems/crowd.py", "roboss", []), ("older_systems/latency.py", "roboss", []),
+    (STAND_IN, "roboss", [SOCCER, "--camera", 0]),
+])
+def test_a_package_is_missing(tmp_path, script, package, words):
+    (tmp_path / f"{package}.py").write_text(f"raise ModuleNotFoundError(name='{package}')\n")
+    path = os.pathsep.join([str(tmp_path), os.environ.get("PYTHONPATH", "")])
+    assert f"the Python package {package} is missing\n  remedy: " in refusal(script, *words, PYTHONPATH=path)
 
 
 def test_a_port_that_is_taken():

@@ -13,8 +13,8 @@ from roboss.analysis.recorder import journal_of_run
 from test_recording import command
 
 sys.path.insert(0, str(REPOSITORY / "examples" / "spider"))
-from gait import Gaits  # noqa: E402
-from search import RANGES, Search, score, speed_bound  # noqa: E402
+from gait import GaitError, Gaits  # noqa: E402
+from search import RANGES, Search, score, speed_bound, world_of  # noqa: E402
 from walking import Walker  # noqa: E402
 
 WORLD, GAITS = roboss.example("spider.sdf"), REPOSITORY / "examples" / "spider" / "gaits"
@@ -56,6 +56,13 @@ def test_the_fastest_gait_of_slow_joints_stays_below_what_any_posture_allows():
     bound = speed_bound(gaits, SLOW, dict(zip(gaits.names, gait))["height"])
     assert 0.6 < walk.speed[0] < bound < 1.0  # m/s; the paper says 2
     assert not walk.fell[0] and walk.lean[0] < 0.1 and walk.joint_speed[0] < 1.03 * SLOW
+
+
+@pytest.mark.parametrize("options", [{"angle": 30}, {"angle": 30, "terrain": "steps"}, {"height": 0.1},
+                                     {"height": 0.1, "terrain": "slope"}])
+def test_a_number_that_the_terrain_does_not_have_is_refused(options):
+    with pytest.raises(GaitError, match="--terrain"):
+        world_of(1, argparse.Namespace(**options))
 
 
 def test_a_search_finds_a_faster_gait():

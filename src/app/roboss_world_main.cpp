@@ -116,14 +116,23 @@ Kind add_spiders(CLI::App& app) {
                CLI::Range(0, 10000));
     add_option(make, "--terrain", options->terrain, "flat, rubble, slope, steps",
                CLI::IsMember({"flat", "rubble", "slope", "steps"}));
-    add_option(make, "--height", options->height_m, "of the largest stones, or of a step, m",
-               CLI::Range(0.001, 0.5));
-    add_option(make, "--angle", options->angle_deg, "of the slope, degrees", CLI::Range(0.0, 60.0));
+    const CLI::Option* height = add_option(make, "--height", options->height_m,
+                                           "of the largest stones, or of a step, m", CLI::Range(0.001, 0.5));
+    const CLI::Option* angle =
+        add_option(make, "--angle", options->angle_deg, "of the slope, degrees", CLI::Range(0.0, 60.0));
     add_option(make, "--motor-torque", options->motor_torque, "bound of every motor, N m, 0.01 to 1000",
                CLI::Range(0.01, 1000.0));
     add_option(make, "--motor-speed", options->motor_speed, "bound of every motor, rad/s, 0.01 to 1000",
                CLI::Range(0.01, 1000.0));
     make->add_option("--seed", options->seed, "seed of the stones")->capture_default_str();
+    make->callback([options, height, angle] {
+        const std::string& terrain = options->terrain;
+        if (angle->count() > 0 && terrain != "slope")
+            throw CLI::ValidationError("--angle", "only a slope has one: give --terrain slope");
+        if (height->count() > 0 && terrain != "rubble" && terrain != "steps")
+            throw CLI::ValidationError("--height",
+                                       "only stones and steps have one: give --terrain rubble or steps");
+    });
     return kind(make, options, roboss::spider_sdf);
 }
 
