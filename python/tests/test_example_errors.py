@@ -60,7 +60,7 @@ def test_wrong_input(script, words):
 ])
 def test_a_package_is_missing(tmp_path, script, package, words):
     (tmp_path / f"{package}.py").write_text(f"raise ModuleNotFoundError(name='{package}')\n")
-    path = os.pathsep.join([str(tmp_path), os.environ.get("PYTHONPATH", "")])
+    path = os.pathsep.join(filter(None, [str(tmp_path), os.environ.get("PYTHONPATH")]))  # no empty one: the folder itself
     assert f"the Python package {package} is missing\n  remedy: " in refusal(script, *words, PYTHONPATH=path)
 
 
