@@ -29,7 +29,7 @@ struct Devices {
 class CellProgram final : public roboss::ControlProgram {
   public:
     ~CellProgram() override {
-        if (!has_reported_ && now_s_ > 0) report_at_end([this] { report_all(now_s_); });
+        if (const auto time_s = reports_.at_end()) report_at_end([&] { report_all(*time_s); });
     }
     roboss::ControlOptions options() const override { return {kPeriod, -1, true}; }
     void start(roboss::Client& client) override;
@@ -47,15 +47,13 @@ class CellProgram final : public roboss::ControlProgram {
     Gripper gripper_ = Gripper::kFingers;
     std::vector<Devices> devices_;
     std::vector<Cell> cells_;
-    double period_s_ = 0, reported_ = 0;  // of the reports
-    double now_s_ = 0;                    // of the last control()
-    bool has_reported_ = false;
+    Reports reports_;
 };
 
 void CellProgram::start(roboss::Client& client) {
     devices_.clear();
     cells_.clear();
-    period_s_ = report_period_s();
+    reports_.start();
     examples::check_result_file(kResult);
     const roboss::Model& model = client.model();
     for (int number = 0; model.find_robot(arm_name(number)) && model.find_robot(feed_name(number));
@@ -133,15 +131,11 @@ void CellProgram::report_all(double time_s) const {
 
 void CellProgram::control(roboss::Client& client) {
     for (std::size_t i = 0; i < cells_.size(); ++i) control_cell(client, devices_[i], cells_[i]);
-    now_s_ = client.time_s();
-    if (now_s_ < reported_ + period_s_) return;
-    reported_ += period_s_;
-    has_reported_ = true;
-    report_all(now_s_);
+    if (reports_.is_due(client.time_s())) report_all(client.time_s());
 }
 
 std::string CellProgram::memory() const {
-    std::string text = exact(reported_);
+    std::string text = exact(reports_.last_s);
     const auto write = [&](const auto& value) { text += ' ' + exact(static_cast<double>(value)); };
     for (const Cell& cell : cells_) CellState::fields(write, cell.state);
     return text;
@@ -149,7 +143,7 @@ std::string CellProgram::memory() const {
 
 void CellProgram::restore(const std::string& memory) {
     std::istringstream text(memory);
-    text >> reported_;
+    text >> reports_.last_s;
     const auto read = [&](auto& value) {
         double number = 0;
         text >> number;

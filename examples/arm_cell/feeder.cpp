@@ -35,7 +35,7 @@ struct Stock {
 class Feeder final : public roboss::ControlProgram {
   public:
     ~Feeder() override {
-        if (!has_reported_ && now_s_ > 0) report_at_end([this] { report_all(now_s_); });
+        if (const auto time_s = reports_.at_end()) report_at_end([&] { report_all(*time_s); });
     }
     /// Without latency: a box that was put is seen where it was put.
     roboss::ControlOptions options() const override { return {kLook, 0, true}; }
@@ -51,14 +51,12 @@ class Feeder final : public roboss::ControlProgram {
     void report_all(double time_s) const;
 
     std::vector<Stock> stocks_;
-    double period_s_ = 0, reported_ = 0;  // of the reports
-    double now_s_ = 0;                    // of the last control()
-    bool has_reported_ = false;
+    Reports reports_;
 };
 
 void Feeder::start(roboss::Client& client) {
     stocks_.clear();
-    period_s_ = report_period_s();
+    reports_.start();
     examples::check_result_file(kResult);
     for (int cell = 0; client.model().find_robot(box_name(cell, 0)); ++cell) {
         Stock stock;
@@ -142,15 +140,11 @@ void Feeder::control(roboss::Client& client) {
         look(client, stocks_[i]);
         feed(client, static_cast<int>(i), stocks_[i]);
     }
-    now_s_ = client.time_s();
-    if (now_s_ < reported_ + period_s_) return;
-    reported_ += period_s_;
-    has_reported_ = true;
-    report_all(now_s_);
+    if (reports_.is_due(client.time_s())) report_all(client.time_s());
 }
 
 std::string Feeder::memory() const {
-    std::string text = exact(reported_);
+    std::string text = exact(reports_.last_s);
     for (const Stock& stock : stocks_) {
         for (const bool waits : stock.on_rack) text += waits ? " 1" : " 0";
         for (const int count : {stock.fed, stock.delivered, stock.fallen})
@@ -161,7 +155,7 @@ std::string Feeder::memory() const {
 
 void Feeder::restore(const std::string& memory) {
     std::istringstream text(memory);
-    text >> reported_;
+    text >> reports_.last_s;
     for (Stock& stock : stocks_) {
         for (bool& waits : stock.on_rack) text >> waits;
         text >> stock.fed >> stock.delivered >> stock.fallen;

@@ -18,6 +18,18 @@ double report_period_s() {
     return seconds;
 }
 
+bool Reports::is_due(double now_s) {
+    now_s_ = now_s;
+    if (now_s < last_s + period_s_) return false;
+    last_s += period_s_;
+    return has_reported_ = true;
+}
+
+std::optional<double> Reports::at_end() const {
+    if (has_reported_ || !(now_s_ > 0)) return std::nullopt;
+    return now_s_;
+}
+
 void report(const std::string& line, const char* variable) {
     std::printf("%s\n", line.c_str());
     std::fflush(stdout);

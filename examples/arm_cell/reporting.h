@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 
 namespace arm_cell {
@@ -9,6 +10,22 @@ namespace arm_cell {
 /// ROBOSS_CELLS_REPORT: simulated time between two reports, s, at least 1; or 600.
 /// @throws std::runtime_error with a remedy.
 double report_period_s();
+
+/// When a program reports: every report_period_s(), and at the end of a run that was too short for a report.
+class Reports {
+  public:
+    void start() { period_s_ = report_period_s(); }
+    /// Whether a report is due. Called at each control().
+    bool is_due(double now_s);
+    /// The time of a report at the end, s; std::nullopt if there was one before, or no control() at all.
+    std::optional<double> at_end() const;
+
+    double last_s = 0;  // when the last one was due; part of a saved run
+
+  private:
+    double period_s_ = 0, now_s_ = 0;
+    bool has_reported_ = false;
+};
 
 /// Prints the line, and writes it to the file that the environment variable names, if it is set.
 void report(const std::string& line, const char* variable);

@@ -75,6 +75,13 @@ std::optional<Camera> Camera::from_environment() {
     return Camera{noise_mm / 1000, noise_deg * roboss::kPi / 180, delay_ms / 1000};
 }
 
+Camera Camera::required() {
+    if (const auto camera = from_environment()) return *camera;
+    throw std::runtime_error(
+        "ROBOSS_SOCCER_CAMERA is no camera\n"
+        "  remedy: give noise in mm and degrees, and a delay in ms: \"2 1 33\"");
+}
+
 View see(roboss::Client& client, const Pitch& pitch, Team team, const Camera& camera, double side) {
     const auto mover = [&](roboss::RobotId robot) {
         Mover seen = mover_of(client, robot, side);

@@ -72,6 +72,8 @@ struct Camera {
     double noise_m = 0, noise_rad = 0, delay_s = 0;
     /// std::nullopt if the variable is set to anything else.
     static std::optional<Camera> from_environment();
+    /// @throws std::runtime_error with a remedy in that case.
+    static Camera required();
 };
 
 /// As the team sees it that plays to `side`: of the world's x axis, +1 or -1.

@@ -59,7 +59,7 @@ struct BallPlacement {
     bool rolls = false;
 };
 
-/// A problem that the sender is told, as the simulation protocol has it.
+/// An error for the sender of a command, as the simulation protocol has it.
 struct Problem {
     std::string code, text;
 };

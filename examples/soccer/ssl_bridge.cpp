@@ -31,7 +31,7 @@ constexpr double kMostDribbler = 1047;  // rad/s: 10000 revolutions per minute
 
 constexpr std::array kWheelNames{"wheel1", "wheel2", "wheel3", "wheel4"};
 
-/// What a robot was told last.
+/// The last command of a robot.
 struct RobotMemory {
     roboss::RobotId id;
     std::variant<std::monostate, ssl::Wheels, ssl::Velocity> motion{};
@@ -74,12 +74,7 @@ class SslBridge final : public roboss::ControlProgram {
 };
 
 void SslBridge::start(roboss::Client& client) {
-    const auto camera = Camera::from_environment();
-    if (!camera)
-        throw std::runtime_error(
-            "ROBOSS_SOCCER_CAMERA is no camera\n"
-            "  remedy: give noise in mm and degrees, and a delay in ms: \"2 1 33\"");
-    camera_ = *camera;
+    camera_ = Camera::required();
     find_robots(client);
     if (!grsim_) open_sockets();
 }

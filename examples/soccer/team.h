@@ -24,12 +24,7 @@ class TeamProgram final : public roboss::ControlProgram {
 
     void start(roboss::Client& client) override {
         pitch_ = Pitch::of(client);
-        const auto camera = Camera::from_environment();
-        if (!camera)
-            throw std::runtime_error(
-                "ROBOSS_SOCCER_CAMERA is no camera\n"
-                "  remedy: give noise in mm and degrees, and a delay in ms: \"2 1 33\"");
-        camera_ = *camera;
+        camera_ = Camera::required();
         half_s_ = half_length_s();
         radio_Hz_ = radio_rate_Hz();
     }

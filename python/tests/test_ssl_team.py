@@ -145,7 +145,7 @@ def test_the_generated_file_is_removed(ssl_team, tmp_path, monkeypatch):
 
 
 def free_ports(count):
-    """The first of so many UDP ports in a row, and one more."""
+    """The first of a number of free UDP ports in a row, and one more."""
     while True:
         with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as probe:
             probe.bind(("127.0.0.1", 0))

@@ -27,4 +27,15 @@ inline void add_visual(Text& text, const std::string& name, const FieldBox& box,
         placed(box), colour);
 }
 
+/// A box that is seen, with friction of 0.3.
+inline void add_solid(Text& text, const std::string& name, const FieldBox& box, std::string_view restitution,
+                      std::string_view colour) {
+    add(text,
+        "        <collision "
+        "name=\"{}\">{}<surface><friction><ode><mu>0.3</mu><mu2>0.3</mu2></ode></friction><bounce>"
+        "<restitution_coefficient>{}</restitution_coefficient></bounce></surface></collision>\n",
+        name, placed(box), restitution);
+    add_visual(text, name, box, colour);
+}
+
 }  // namespace roboss

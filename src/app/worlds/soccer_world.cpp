@@ -114,11 +114,7 @@ void add_wall(Text& text, const std::string& name, double low_x, double high_x, 
                        high_y - low_y,
                        soccer::kWallHeight,
                        yaw};
-    add(text, "        <collision name=\"{}\">{}<surface>", name, placed(box));
-    add(text,
-        "<friction><ode><mu>0.3</mu><mu2>0.3</mu2></ode></friction><bounce><restitution_coefficient>0.5"
-        "</restitution_coefficient></bounce></surface></collision>\n");
-    add_visual(text, name, box, "0.33 0.35 0.37");
+    add_solid(text, name, box, "0.5", "0.33 0.35 0.37");
 }
 
 void add_walls(Text& text, const Field& f) {

@@ -47,7 +47,7 @@ struct SslRobot {
     static constexpr double kBallX = kBarX + 0.8660254 * (kBarRadius + kBallRadius);
 };
 
-/// The SSL field with so many robots a side; nullptr: no league has that many.
+/// The SSL field for a number of robots a side; nullptr: no league has that many.
 inline const SslField* ssl_field_for(int robots) {
     for (const SslField& field : kSslFields)
         if (field.robots == robots) return &field;

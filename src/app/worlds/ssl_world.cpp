@@ -129,11 +129,7 @@ constexpr const char* kSslBall = R"(    <model name="ball">
 )";
 
 void add_ssl_wall(Text& text, const std::string& name, const FieldBox& box, std::string_view colour) {
-    add(text, "        <collision name=\"{}\">{}<surface>", name, placed(box));
-    add(text,
-        "<friction><ode><mu>0.3</mu><mu2>0.3</mu2></ode></friction><bounce><restitution_coefficient>0.4"
-        "</restitution_coefficient></bounce></surface></collision>\n");
-    add_visual(text, name, box, colour);
+    add_solid(text, name, box, "0.4", colour);
 }
 
 /// The boundary around the carpet, and goals in the colours of the teams that defend them first.

@@ -114,7 +114,7 @@ const Method& method_of(const RobotType& type) {
     return type.dofs.empty() || is_net(type) ? kClassical : kButcher;
 }
 
-/// Into so many parts the tick is cut: no body turns further in one than the method follows to a millionth.
+/// The number of parts of a tick: no body turns further in one than the method follows to a millionth.
 /// In a net, which others hold, a body that turns fast swings to and fro: less exact will do.
 int parts_of_tick(const RobotType& type, double fastest, double dt) {
     constexpr double kTurnOfBody = 0.1, kTurnOfTree = 0.25, kTurnOfNet = 0.16;  // rad
