@@ -7,28 +7,19 @@
 #include <vector>
 
 #include "core/minimum_degree.h"
+#include "physics/bodies/body_pairs.h"
+#include "physics/bodies/six.h"
 
 namespace roboss {
 
-/// Six numbers of a body (angular, linear), and padding that no sum reads.
-struct alignas(64) Six {
-    double x[8] = {};
-};
-
-struct SixBlock {
-    Six row[6];
-};
-
 struct FreeBody {
     SixBlock mass;
-    Six impulse;                               // M v + dt (applied - bias)
-    Six v, mv;                                 // velocity, M v
-    Six gradient;                              // mv - impulse - applied
-    Six applied;                               // impulses of all contacts
-    Six step, m_step;                          // of the velocity, M step
-    Six lightness;                             // 1 / M's diagonal
-    SixBlock mobility;                         // M^-1, for sweeps
-    Six swept, swept_before, sweep_direction;  // sweeps: velocity, before the last one; search direction
+    Six impulse;       // M v + dt (applied - bias)
+    Six v, mv;         // velocity, M v
+    Six gradient;      // mv - impulse - applied
+    Six applied;       // impulses of all contacts
+    Six step, m_step;  // of the velocity, M step
+    Six lightness;     // 1 / M's diagonal
 };
 
 /// A contact point. `n`, `t1`, `t2`: normal, tangents. Friction velocities are relative to their targets.
@@ -46,11 +37,7 @@ struct BodyPoint {
     double d_1n = 0, d_2n = 0;                                 // of friction by the normal velocity
     double held_n = 0, held_11 = 0, held_12 = 0, held_22 = 0;  // what the matrix holds
     double bound_error = 0, relaxation = 1;                    // FrictionDisc::bound_error
-    Six by_n_a, by_t1_a, by_t2_a, by_n_b, by_t1_b, by_t2_b;    // M^-1 J^T, for sweeps
-    double mass_n = 0, mass_t = 0;                             // effective, while sweeping
-    double swept_n = 0, swept_1 = 0, swept_2 = 0;              // impulses
-    double before_n = 0, before_1 = 0, before_2 = 0;           // before the last sweep
-    double direction_n = 0, direction_1 = 0, direction_2 = 0;  // search direction of sweeps
+    double swept_n = 0, swept_1 = 0, swept_2 = 0;              // impulses that sweeps found
 };
 
 /// Order of elimination and places of all blocks of the factor. Edges join a body to those that are
@@ -97,6 +84,14 @@ struct BodyIsland {
         double l[6][6] = {}, inverse[6] = {};
     };
     std::vector<PivotFactor> pivot_factors;  // by body
+
+    // Sweeps.
+    bool bounds_stay = false;  // of friction; else they follow the normal impulses
+    PairBatches pairs;
+    std::vector<PointSlot> slots;
+    std::vector<SixBlock> whitening;  // by body: L^-1 of its mass matrix L L^T, column by column
+    std::vector<Six> swept;           // by body, and one that never moves: L^T v
+    std::vector<Six> swept_before, swept_direction;  // before the last sweep; search direction
 };
 
 }  // namespace roboss

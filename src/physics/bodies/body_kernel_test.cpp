@@ -63,7 +63,7 @@ void compute(const BodyKernel& kernel, bool coupled, BodyIsland& s) {
     kernel.move(s, 0.75);
     kernel.balance(s);
     s.bodies[0].step.x[0] += kernel.slope(s) + kernel.slope_beyond(s, 0.3);
-    kernel.sweep(s, 5);
+    kernel.sweep(s, {.most = 5});
 }
 
 bool same_bits(const Six& a, const Six& b) {

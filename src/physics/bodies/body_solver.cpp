@@ -18,7 +18,9 @@ constexpr double kBoundsFrom = 1e-2;
 constexpr double kSticking = 0.998;  // of the squared friction bound: beyond, a sweep says that it slides
 constexpr double kRounding = newton::kRounding<double>;
 
-constexpr int kSweepsAlone = 40;  // at most, where no step of Newton's method follows
+constexpr int kSweepsAlone = 40;   // at most, where no step of Newton's method follows
+constexpr std::size_t kPile = 32;  // bodies: from here on sweeps may settle what moves
+constexpr int kMostToSettle = 300;
 
 /// Impulses spread through few bodies a sweep. Twelve sweeps cost about as much as one iteration.
 int most_sweeps(std::size_t bodies) {
@@ -29,15 +31,15 @@ int most_sweeps(std::size_t bodies) {
 }  // namespace
 
 bool BodySolver::solve(const BodyPart& part, std::vector<double>& v, SolveReport& report) {
+    const Accuracy& accuracy = part.problem.accuracy;
     position_ = part.problem.position;
-    iterations_ = 0;
+    iterations_ = 0, swept_ = false;
     take(part, v);
-    const bool by_sweeps = !position_ && part.members.size() > 1 && sweeps_suffice(part.problem.accuracy);
-    if (by_sweeps)
-        take_sweeps();
-    else
+    bool balances = position_ ? settle_displacement(part) : settle_velocities(accuracy);
+    if (!balances) {
         prepare_factor();
-    const bool balances = by_sweeps || (position_ && displace()) || iterate(part.problem.accuracy);
+        balances = (position_ && displace()) || iterate(accuracy);
+    }
     report = {iterations_, residual_};
     if (balances) give(part, v);
     return balances;
@@ -74,6 +76,7 @@ void BodySolver::take_point(const BodyPart& part, const ContactRow& row, BodyPoi
     p.stiffness_n = 1.0 / normal.compliance, p.stiffness_t = 1.0 / row.slip.compliance;
     p.coefficient = row.slip.coefficient, p.bound = row.slip.bound;
     p.swept_n = row.normal.impulse;
+    if (position_) p.f_1 = row.slip.impulse_1, p.f_2 = row.slip.impulse_2;
 }
 
 void BodySolver::take(const BodyPart& part, const std::vector<double>& v) {
@@ -130,21 +133,26 @@ bool BodySolver::take_first_step() {
     return false;
 }
 
-/// Velocities and impulses from those that the contacts carried last, and friction bounds to match.
-void BodySolver::sweep(int most) {
+/// Velocities and impulses from those that the contacts carried last, and friction bounds to match; for the
+/// displacement from those of the velocities, whose friction bounds stay. True if that settles.
+bool BodySolver::sweep(const SweepPlan& plan) {
+    island_.bounds_stay = position_;
     for (BodyPoint& p : island_.points) {
-        p.f_n = p.swept_n, p.f_1 = p.target_1 * p.stiffness_t, p.f_2 = p.target_2 * p.stiffness_t;
+        p.f_n = p.swept_n;
+        if (position_) continue;
+        p.f_1 = p.target_1 * p.stiffness_t, p.f_2 = p.target_2 * p.stiffness_t;
         const double bound = p.coefficient * p.f_n, size2 = p.f_1 * p.f_1 + p.f_2 * p.f_2;
         if (size2 > bound * bound) p.f_1 *= bound / std::sqrt(size2), p.f_2 *= bound / std::sqrt(size2);
     }
-    kernel_.sweep(island_, most);
+    const bool settled = kernel_.sweep(island_, plan);
     kernel_.take_velocities(island_);
+    if (position_) return settled;
     for (BodyPoint& p : island_.points) p.bound = p.coefficient * p.swept_n;
+    return settled;
 }
 
-/// The velocities by sweeps alone; momentum balances.
-void BodySolver::take_sweeps() {
-    sweep(std::min(most_sweeps(island_.bodies.size()), kSweepsAlone));
+/// What the sweeps found is the solution; momentum balances.
+void BodySolver::take_swept() {
     for (BodyPoint& p : island_.points) {
         p.f_n = p.swept_n, p.f_1 = p.swept_1, p.f_2 = p.swept_2;
         p.d_n = p.swept_n > 0 ? p.stiffness_n : 0;
@@ -152,11 +160,45 @@ void BodySolver::take_sweeps() {
     residual_ = kernel_.set_gradient(island_);
 }
 
-/// A first step to where the bodies would be if every contact did what the sweeps say. False if that is no
-/// better than where we are, where we then still are.
-bool BodySolver::start_from_sweeps() {
+/// The velocities by sweeps, if these are the solution.
+bool BodySolver::settle_velocities(const Accuracy& accuracy) {
+    const std::size_t bodies = island_.bodies.size();
+    if (bodies == 1) return false;
+    const bool alone = sweeps_suffice(accuracy);
+    if (!alone) {
+        residual_ = kernel_.balance(island_);
+        if (residual_ <= newton::kRoughly) return false;
+    }
+    SweepPlan plan{.most = most_sweeps(bodies)};
+    if (alone)
+        plan.most = std::min(plan.most, kSweepsAlone);
+    else if (bodies >= kPile)
+        plan.settled = pile_may_settle(accuracy), plan.most_to_settle = kMostToSettle;
     keep_start();
-    sweep(most_sweeps(island_.bodies.size()));
+    swept_ = true;
+    if (!sweep(plan) && !alone) return false;
+    take_swept();
+    return true;
+}
+
+/// Likewise the displacement of a pile.
+bool BodySolver::settle_displacement(const BodyPart& part) {
+    const double settled = pile_may_settle(part.problem.accuracy);
+    if (island_.bodies.size() < kPile || settled == 0) return false;
+    keep_start();
+    if (sweep({.most = 1, .settled = settled, .most_to_settle = kMostToSettle})) {
+        take_swept();
+        return true;
+    }
+    return_to_start();
+    for (std::size_t c = 0; c < island_.points.size(); ++c)
+        island_.points[c].swept_n = part.problem.rows.contacts[part.contacts[c]].normal.impulse;
+    return false;
+}
+
+/// A first step to where the bodies would be if every contact did what the sweeps say. False if that is no
+/// better than where the solve began, where we then are.
+bool BodySolver::start_from_sweeps() {
     set_curvatures(island_.points);
     for (BodyPoint& p : island_.points) {
         p.d_n = p.f_n = 0;
@@ -184,9 +226,12 @@ void BodySolver::start_from_sticking() {
 }
 
 void BodySolver::start() {
-    residual_ = kernel_.balance(island_);
-    if (residual_ <= newton::kRoughly) return;
-    if (!position_ && island_.bodies.size() > 1 && start_from_sweeps()) return;
+    if (swept_) {
+        if (start_from_sweeps()) return;
+    } else {
+        residual_ = kernel_.balance(island_);
+        if (residual_ <= newton::kRoughly) return;
+    }
     start_from_sticking();
 }
 

@@ -47,8 +47,10 @@ class BodySolver {
     bool change_pushing();
     void start();
     bool take_first_step();
-    void sweep(int most);
-    void take_sweeps();
+    bool sweep(const SweepPlan& plan);
+    void take_swept();
+    bool settle_velocities(const Accuracy& accuracy);
+    bool settle_displacement(const BodyPart& part);
     bool start_from_sweeps();
     void start_from_sticking();
     double balance_tied();
@@ -64,6 +66,7 @@ class BodySolver {
     const BodyKernel& kernel_ = body_kernel();
     BodyIsland island_;
     bool position_ = false;
+    bool swept_ = false;  // the velocities, from v_start_
     double residual_ = 0;
     int iterations_ = 0;
     std::vector<std::uint32_t> local_;  // by robot of the problem: its body

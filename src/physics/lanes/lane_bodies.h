@@ -6,7 +6,7 @@
 #include <memory>
 
 #include "physics/bodies/body_kernel.h"
-#include "physics/lanes/lane_body_sweeps.h"
+#include "physics/lanes/lane_pair_sweeps.h"
 
 namespace roboss {
 namespace {
@@ -120,7 +120,7 @@ class LaneBodies final : public BodyKernel {
         return slope;
     }
 
-    void sweep(BodyIsland& s, int sweeps) const override { LaneSweeps::run(s, sweeps); }
+    bool sweep(BodyIsland& s, const SweepPlan& plan) const override { return LaneSweeps::run(s, plan); }
 
   private:
     static void apply(const Six& n, const Six& t1, const Six& t2, const BodyPoint& p, Six& applied) {

@@ -36,28 +36,40 @@ void cut(double coefficient, RowSweeps::ContactImpulse& x) {
 
 }  // namespace
 
-void RowSweeps::run(const Problem& p, int most, std::vector<double>& v) {
-    converged_ = 1e-8;
+bool RowSweeps::run(const Problem& p, const SweepPlan& plan, std::vector<double>& v) {
+    converged_ = plan.converged;
     start(p, v.size());
-    sweep_all(p, most, v);
+    return sweep_all(p, plan, plan.settled > 0 ? squared_motion(p, v) : 0, v);
 }
 
 void RowSweeps::go_on(const Problem& p, int most, std::vector<double>& v) {
     converged_ *= 1e-2;
-    sweep_all(p, most, v);
+    sweep_all(p, {.most = most, .converged = converged_}, 0, v);
 }
 
-void RowSweeps::sweep_all(const Problem& p, int most, std::vector<double>& v) {
-    double last = 0, enough = 0;
-    for (int i = 0; i < most; ++i) {
-        const double change = sweep(p);
-        if (i == 0) enough = converged_ * squared_impulses();
-        if (i + 1 == most || change <= enough) break;
-        accelerate(i > 0 && change <= last ? change / last : 0);
-        last = change;
+bool RowSweeps::sweep_all(const Problem& p, const SweepPlan& plan, double motion, std::vector<double>& v) {
+    SweepProgress progress(plan);
+    double change = sweep(p);
+    progress.begin(squared_impulses(), motion);
+    while (!progress.ends(change)) {
+        accelerate(progress.share());
+        change = sweep(p);
     }
     for (std::size_t r = 0; r < p.robots.size(); ++r)
         std::copy_n(v_.data() + place_[r], p.robots[r]->type->paths.size(), v.data() + p.offsets[r]);
+    return progress.settled();
+}
+
+/// Of the contact points, at these velocities.
+double RowSweeps::squared_motion(const Problem& p, const std::vector<double>& v) const {
+    double sum = 0;
+    for (std::size_t c = 0; c < contacts_.size(); ++c) {
+        const ContactRow& row = p.rows.contacts[c];
+        const jacobian::Along<double> u = jacobian::along(p.rows.columns, row.first, row.last, v);
+        const double u_1 = u.t1 - row.slip.target_1, u_2 = u.t2 - row.slip.target_2;
+        sum += u.n * u.n * contacts_[c].mass_n + (u_1 * u_1 + u_2 * u_2) * contacts_[c].mass_t;
+    }
+    return sum;
 }
 
 /// Velocities without rows, then with what the contacts carried last.
@@ -95,7 +107,7 @@ void RowSweeps::take_up(const Problem& p, int most, std::vector<double>& v) {
     v_ = v_free_;
     start_scalars(p, true);
     start_contacts(p, true);
-    sweep_all(p, most, v);
+    sweep_all(p, {.most = most, .converged = converged_}, 0, v);
 }
 
 void RowSweeps::start_scalars(const Problem& p, bool again) {

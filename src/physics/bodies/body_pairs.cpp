@@ -1,0 +1,68 @@
+// See body_pairs.h.
+#include "physics/bodies/body_pairs.h"
+
+#include <algorithm>
+#include <bit>
+#include <tuple>
+
+#include "physics/bodies/body_island.h"
+
+namespace roboss {
+namespace {
+
+constexpr std::uint32_t kMasked = 64;  // colours that a bit stands for
+
+}  // namespace
+
+std::uint32_t PairBatches::take_colour(int a, int b) {
+    const auto i = static_cast<std::size_t>(a), k = static_cast<std::size_t>(b < 0 ? a : b);
+    const std::uint64_t taken = taken_[i] | taken_[k];
+    if (taken != ~std::uint64_t{0}) {
+        const auto colour = static_cast<std::uint32_t>(std::countr_one(taken));
+        taken_[i] |= std::uint64_t{1} << colour;
+        if (b >= 0) taken_[k] |= std::uint64_t{1} << colour;
+        return colour;
+    }
+    const std::uint32_t colour = std::max(further_[i], further_[k]);
+    further_[i] = colour + 1;
+    if (b >= 0) further_[k] = colour + 1;
+    return colour;
+}
+
+void PairBatches::arrange(std::size_t bodies, const std::vector<BodyPoint>& points) {
+    taken_.assign(bodies, 0), further_.assign(bodies, kMasked);
+    pairs_.clear();
+    for (std::uint32_t first = 0, last = 0; first < points.size(); first = last) {
+        const BodyPoint& p = points[first];
+        while (last < points.size() && points[last].a == p.a && points[last].b == p.b) ++last;
+        pairs_.push_back({take_colour(p.a, p.b), first, last - first});
+    }
+    std::ranges::sort(pairs_, [](const Pair& x, const Pair& y) {
+        return std::tuple(x.colour, y.points, x.first) < std::tuple(y.colour, x.points, y.first);
+    });
+    places_.resize(points.size());
+    fill_batches(points, static_cast<int>(bodies));
+}
+
+void PairBatches::fill_batches(const std::vector<BodyPoint>& points, int nobody) {
+    batches_.clear();
+    std::size_t slots = 0;
+    for (std::size_t k = 0; k < pairs_.size(); ++k) {
+        const Pair& pair = pairs_[k];
+        if (k == 0 || pairs_[k - 1].colour != pair.colour || batches_.back().pairs == 8) {
+            PairBatch& batch = batches_.emplace_back();
+            std::ranges::fill(batch.a, nobody), std::ranges::fill(batch.b, nobody);
+            batch.first = slots, batch.last = slots + pair.points;
+            slots = batch.last;
+        }
+        PairBatch& batch = batches_.back();
+        const auto lane = static_cast<std::size_t>(batch.pairs++);
+        const BodyPoint& p = points[pair.first];
+        batch.a[lane] = p.a;
+        if (p.b >= 0) batch.b[lane] = p.b;
+        for (std::uint32_t i = 0; i < pair.points; ++i)
+            places_[pair.first + i] = (batch.first + i) * 8 + lane;
+    }
+}
+
+}  // namespace roboss

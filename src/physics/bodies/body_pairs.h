@@ -1,0 +1,69 @@
+// The contact points of free bodies, arranged for Gauss-Seidel sweeps in lanes (lanes/lane_pair_sweeps.h):
+// pairs that share no body go side by side, eight at a time, and point after point.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "physics/bodies/six.h"
+
+namespace roboss {
+
+struct BodyPoint;
+
+/// Numbers of eight pairs.
+struct alignas(64) Eight {
+    double x[8] = {};
+};
+
+/// One contact point of each of eight pairs; where a pair has none, all is zero. Jacobians are those of the
+/// velocities y = L^T v, with L L^T the mass matrix: what an impulse f does to y is J^T f.
+struct PointSlot {
+    Eight n_a[6], t1_a[6], t2_a[6], n_b[6], t1_b[6], t2_b[6];
+    Eight target_n, target_1, target_2;
+    Eight compliance, slip;                // of the normal, of friction
+    Eight bound, coefficient;              // of friction: bound + coefficient * normal impulse
+    Eight mass_n, mass_t;                  // effective, compliance included
+    Eight inverse_mass_n, inverse_mass_t;  // 1 / the same
+    Eight n_on_1, n_on_2;                  // tangential velocity by a normal impulse
+    Eight impulse_n, impulse_1, impulse_2;
+    Eight change_n, change_1, change_2;           // by the last sweep
+    Eight direction_n, direction_1, direction_2;  // search direction of the acceleration
+};
+
+/// Eight pairs of bodies or fewer. `b` of a pair with scenery, and both of a lane without a pair, are the
+/// body after the last one, which never moves.
+struct PairBatch {
+    int a[8], b[8];
+    int pairs = 0;
+    std::size_t first = 0, last = 0;  // slots
+};
+
+/// Pairs take colours in their order, each the lowest that none of its bodies has. Pairs of a colour fill
+/// batches, those with the most points first.
+class PairBatches {
+  public:
+    /// `points` of one pair must be neighbours.
+    void arrange(std::size_t bodies, const std::vector<BodyPoint>& points);
+
+    const std::vector<PairBatch>& batches() const { return batches_; }
+    std::size_t slots() const { return batches_.empty() ? 0 : batches_.back().last; }
+    /// Where a point is: slot * 8 + lane.
+    std::size_t place_of(std::size_t point) const { return places_[point]; }
+
+  private:
+    struct Pair {
+        std::uint32_t colour, first, points;  // in `points`
+    };
+    std::uint32_t take_colour(int a, int b);
+    void fill_batches(const std::vector<BodyPoint>& points, int nobody);
+
+    std::vector<Pair> pairs_;
+    std::vector<PairBatch> batches_;
+    std::vector<std::size_t> places_;
+    std::vector<std::uint64_t> taken_;    // by body: the lowest 64 colours
+    std::vector<std::uint32_t> further_;  // by body: the first free one beyond
+};
+
+}  // namespace roboss

@@ -1,0 +1,314 @@
+// Gauss-Seidel sweeps of BodyKernel in the registers of one instruction set (lane_six.h): eight pairs of
+// bodies side by side (body_pairs.h).
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/lanes_x86.h"
+#include "physics/lanes/lane_six.h"
+#include "physics/solver/sweep_plan.h"
+
+namespace roboss {
+namespace {
+
+/// Gauss-Seidel sweeps over the points of a BodyIsland: projected impulses, one pair after the other, where
+/// pairs that share no body are one step. The change of a sweep is taken for a descent direction, and sweeps
+/// are accelerated as by nonlinear conjugate gradients (Silcowitz-Hansen, Niebe, Erleben 2010): before each,
+/// impulses also move along the search direction, which collects the changes of the sweeps. It starts anew
+/// where a sweep changes more than the one before it.
+class LaneSweeps {
+  public:
+    static bool run(BodyIsland& s, const SweepPlan& plan) {
+        start(s);
+        SweepProgress progress(plan);
+        double change = first_sweep(s, progress);
+        while (!progress.ends(change)) {
+            accelerate_bodies(s, progress.share());
+            s.swept_before = s.swept;
+            change = sweep(s, progress.share());
+        }
+        finish(s);
+        return progress.settled();
+    }
+
+  private:
+    /// Two bodies of each pair: six velocities.
+    struct Velocities {
+        Part a[6], b[6];
+    };
+
+    [[gnu::always_inline]] static Part at(const Eight& numbers, std::size_t lane) {
+        return load_part(numbers.x + lane);
+    }
+    [[gnu::always_inline]] static void put(const Part& part, std::size_t lane, Eight& numbers) {
+        store_part(part, numbers.x + lane);
+    }
+
+    [[gnu::always_inline]] static Part square_root(const Part& x) {
+#if defined(__AVX512F__)
+        return Avx512::sqrt(x);
+#elif defined(__AVX2__)
+        return Avx2::sqrt(x);
+#else
+        Part root{};
+        for (std::size_t i = 0; i < kWidth; ++i) root[i] = std::sqrt(x[i]);
+        return root;
+#endif
+    }
+
+    /// Rows become columns.
+    [[gnu::always_inline]] static void transpose(Part* r) {
+#if defined(__AVX512F__)
+        Part p[8], q[8];
+        for (std::size_t i = 0; i < 8; i += 2) {
+            p[i] = __builtin_shufflevector(r[i], r[i + 1], 0, 8, 2, 10, 4, 12, 6, 14);
+            p[i + 1] = __builtin_shufflevector(r[i], r[i + 1], 1, 9, 3, 11, 5, 13, 7, 15);
+        }
+        for (std::size_t i = 0; i < 8; i += 4)
+            for (std::size_t k = i; k < i + 2; ++k) {
+                q[k] = __builtin_shufflevector(p[k], p[k + 2], 0, 1, 8, 9, 4, 5, 12, 13);
+                q[k + 2] = __builtin_shufflevector(p[k], p[k + 2], 2, 3, 10, 11, 6, 7, 14, 15);
+            }
+        for (std::size_t k = 0; k < 4; ++k) {
+            r[k] = __builtin_shufflevector(q[k], q[k + 4], 0, 1, 2, 3, 8, 9, 10, 11);
+            r[k + 4] = __builtin_shufflevector(q[k], q[k + 4], 4, 5, 6, 7, 12, 13, 14, 15);
+        }
+#elif defined(__AVX2__)
+        Part p[4];
+        for (std::size_t i = 0; i < 4; i += 2) {
+            p[i] = __builtin_shufflevector(r[i], r[i + 1], 0, 4, 2, 6);
+            p[i + 1] = __builtin_shufflevector(r[i], r[i + 1], 1, 5, 3, 7);
+        }
+        for (std::size_t k = 0; k < 2; ++k) {
+            r[k] = __builtin_shufflevector(p[k], p[k + 2], 0, 1, 4, 5);
+            r[k + 2] = __builtin_shufflevector(p[k], p[k + 2], 2, 3, 6, 7);
+        }
+#else
+        const Part first = r[0];
+        r[0] = Part{first[0], r[1][0]};
+        r[1] = Part{first[1], r[1][1]};
+#endif
+    }
+
+    /// Between bodies' rows of six and lanes.
+    [[gnu::always_inline]] static void gather(const Six* bodies, const int* chosen, Part* columns) {
+        for (std::size_t k = 0; k < 6; k += kWidth) {
+            Part block[kWidth];
+            for (std::size_t i = 0; i < kWidth; ++i) block[i] = load_part(bodies[chosen[i]].x + k);
+            transpose(block);
+            for (std::size_t i = 0; i < kWidth && k + i < 6; ++i) columns[k + i] = block[i];
+        }
+    }
+    [[gnu::always_inline]] static void scatter(const Part* columns, const int* chosen, Six* bodies) {
+        for (std::size_t k = 0; k < 6; k += kWidth) {
+            Part block[kWidth];
+            for (std::size_t i = 0; i < kWidth; ++i) block[i] = k + i < 6 ? columns[k + i] : Part{};
+            transpose(block);
+            for (std::size_t i = 0; i < kWidth; ++i) store_part(block[i], bodies[chosen[i]].x + k);
+        }
+    }
+
+    [[gnu::always_inline]] static Part along(const Eight* a, const Eight* b, const Velocities& y,
+                                             std::size_t lane) {
+        Part sums[6];
+        for (std::size_t i = 0; i < 6; ++i) sums[i] = at(a[i], lane) * y.a[i] + at(b[i], lane) * y.b[i];
+        return ((sums[0] + sums[1]) + (sums[2] + sums[3])) + (sums[4] + sums[5]);
+    }
+
+    /// A contact point of each pair; adds the squared change of the impulses, each by its effective mass.
+    [[gnu::always_inline]] static void sweep_point(PointSlot& p, std::size_t lane, const Part& share,
+                                                   Velocities& y, Part& change) {
+        const auto accelerated = [&](const Eight& impulse, const Eight& last, Eight& direction) {
+            const Part old = share * at(direction, lane);
+            put(old + at(last, lane), lane, direction);
+            return at(impulse, lane) + old;
+        };
+        const Part n_before = accelerated(p.impulse_n, p.change_n, p.direction_n),
+                   t1_before = accelerated(p.impulse_1, p.change_1, p.direction_1),
+                   t2_before = accelerated(p.impulse_2, p.change_2, p.direction_2);
+        const Part u_n = along(p.n_a, p.n_b, y, lane), u_1 = along(p.t1_a, p.t1_b, y, lane),
+                   u_2 = along(p.t2_a, p.t2_b, y, lane), none{};
+        Part n = n_before +
+                 ((at(p.target_n, lane) - u_n) - at(p.compliance, lane) * n_before) * at(p.mass_n, lane);
+        n = n > none ? n : none;
+        const Part dn = n - n_before, slip = at(p.slip, lane), mass_t = at(p.mass_t, lane);
+        Part t1 = t1_before -
+                  ((u_1 + at(p.n_on_1, lane) * dn) - at(p.target_1, lane) + slip * t1_before) * mass_t,
+             t2 = t2_before -
+                  ((u_2 + at(p.n_on_2, lane) * dn) - at(p.target_2, lane) + slip * t2_before) * mass_t;
+        const Part bound = at(p.bound, lane) + at(p.coefficient, lane) * n, size2 = t1 * t1 + t2 * t2;
+        const Part cut = size2 > bound * bound ? bound / square_root(size2) : all(1);
+        t1 = t1 * cut, t2 = t2 * cut;
+        const Part d1 = t1 - t1_before, d2 = t2 - t2_before;
+        for (std::size_t i = 0; i < 6; ++i) {
+            y.a[i] =
+                y.a[i] + ((at(p.n_a[i], lane) * dn + at(p.t1_a[i], lane) * d1) + at(p.t2_a[i], lane) * d2);
+            y.b[i] =
+                y.b[i] + ((at(p.n_b[i], lane) * dn + at(p.t1_b[i], lane) * d1) + at(p.t2_b[i], lane) * d2);
+        }
+        put(n, lane, p.impulse_n), put(t1, lane, p.impulse_1), put(t2, lane, p.impulse_2);
+        put(dn, lane, p.change_n), put(d1, lane, p.change_1), put(d2, lane, p.change_2);
+        change = change +
+                 (dn * dn * at(p.inverse_mass_n, lane) + (d1 * d1 + d2 * d2) * at(p.inverse_mass_t, lane));
+    }
+
+    static double first_sweep(BodyIsland& s, SweepProgress& progress) {
+        s.swept_before = s.swept;
+        const double change = sweep(s, 0);
+        progress.begin(squared_impulses(s), squared_motion(s));
+        return change;
+    }
+
+    /// One sweep; returns the squared change of the impulses.
+    static double sweep(BodyIsland& s, double share) {
+        Eight changes;
+        const Part shares = all(share);
+        for (const PairBatch& batch : s.pairs.batches())
+            for (std::size_t lane = 0; lane < static_cast<std::size_t>(batch.pairs); lane += kWidth) {
+                Velocities y;
+                gather(s.swept.data(), batch.a + lane, y.a), gather(s.swept.data(), batch.b + lane, y.b);
+                Part change = at(changes, lane);
+                for (std::size_t k = batch.first; k < batch.last; ++k)
+                    sweep_point(s.slots[k], lane, shares, y, change);
+                put(change, lane, changes);
+                scatter(y.a, batch.a + lane, s.swept.data()), scatter(y.b, batch.b + lane, s.swept.data());
+            }
+        return total(changes);
+    }
+
+    static double total(const Eight& sums) {
+        const double* x = sums.x;
+        return ((x[0] + x[1]) + (x[2] + x[3])) + ((x[4] + x[5]) + (x[6] + x[7]));
+    }
+
+    /// Of the velocities before the tick along the points, each by its effective mass.
+    static double squared_motion(const BodyIsland& s) {
+        double sum = 0;
+        for (std::size_t k = 0; k < s.points.size(); ++k) {
+            const BodyPoint& p = s.points[k];
+            const PointSlot& slot = s.slots[s.pairs.place_of(k) / 8];
+            const std::size_t lane = s.pairs.place_of(k) % 8;
+            sum +=
+                p.u_n * p.u_n * slot.mass_n.x[lane] + (p.u_1 * p.u_1 + p.u_2 * p.u_2) * slot.mass_t.x[lane];
+        }
+        return sum;
+    }
+
+    static double squared_impulses(const BodyIsland& s) {
+        Eight sums;
+        for (const PointSlot& p : s.slots)
+            for (std::size_t lane = 0; lane < 8; lane += kWidth) {
+                const Part n = at(p.impulse_n, lane), t1 = at(p.impulse_1, lane), t2 = at(p.impulse_2, lane);
+                put(at(sums, lane) + (n * n * at(p.inverse_mass_n, lane) +
+                                      (t1 * t1 + t2 * t2) * at(p.inverse_mass_t, lane)),
+                    lane, sums);
+            }
+        return total(sums);
+    }
+
+    /// Moves along the search direction, shortened by `share`, and adds the last sweep's change to it.
+    /// Velocities are linear in the impulses, so they have a search direction of their own.
+    static void accelerate_bodies(BodyIsland& s, double share) {
+        for (std::size_t b = 0; b < s.bodies.size(); ++b) {
+            const Row direction = share * load(s.swept_direction[b]), swept = load(s.swept[b]);
+            store(direction + (swept - load(s.swept_before[b])), s.swept_direction[b]);
+            store(swept + direction, s.swept[b]);
+        }
+    }
+
+    static void start(BodyIsland& s) {
+        const std::size_t bodies = s.bodies.size();
+        s.pairs.arrange(bodies, s.points);
+        s.whitening.resize(bodies);
+        s.swept.resize(bodies + 1);
+        s.swept_direction.assign(bodies, Six{});
+        for (std::size_t b = 0; b < bodies; ++b) {
+            invert_root(s.bodies[b].mass, s.whitening[b]);
+            store(times(s.whitening[b], s.bodies[b].impulse), s.swept[b]);
+        }
+        s.swept[bodies] = {};
+        s.slots.assign(s.pairs.slots(), PointSlot{});
+        for (std::size_t k = 0; k < s.points.size(); ++k) take_point(s, k);
+    }
+
+    static void take_point(BodyIsland& s, std::size_t point) {
+        const BodyPoint& p = s.points[point];
+        const std::size_t place = s.pairs.place_of(point), lane = place % 8;
+        PointSlot& slot = s.slots[place / 8];
+        double n_n = 0, t_1 = 0, t_2 = 0, n_1 = 0, n_2 = 0;
+        const auto side = [&](int body, const Six& n, const Six& t1, const Six& t2, Eight* to_n, Eight* to_1,
+                              Eight* to_2) {
+            const SixBlock& whitening = s.whitening[static_cast<std::size_t>(body)];
+            const Row rows[3] = {times(whitening, n), times(whitening, t1), times(whitening, t2)};
+            n_n += roboss::total(rows[0] * rows[0]);
+            t_1 += roboss::total(rows[1] * rows[1]), t_2 += roboss::total(rows[2] * rows[2]);
+            n_1 += roboss::total(rows[0] * rows[1]), n_2 += roboss::total(rows[0] * rows[2]);
+            Row y = load(s.swept[static_cast<std::size_t>(body)]);
+            add(y, p.f_n, rows[0]), add(y, p.f_1, rows[1]), add(y, p.f_2, rows[2]);
+            store(y, s.swept[static_cast<std::size_t>(body)]);
+            Eight* to[3] = {to_n, to_1, to_2};
+            for (std::size_t d = 0; d < 3; ++d) {
+                Six six;
+                store(rows[d], six);
+                for (std::size_t i = 0; i < 6; ++i) to[d][i].x[lane] = six.x[i];
+            }
+        };
+        side(p.a, p.n_a, p.t1_a, p.t2_a, slot.n_a, slot.t1_a, slot.t2_a);
+        if (p.b >= 0) side(p.b, p.n_b, p.t1_b, p.t2_b, slot.n_b, slot.t1_b, slot.t2_b);
+        const double compliance = 1.0 / p.stiffness_n, slip = 1.0 / p.stiffness_t;
+        const double inverse_n = n_n + compliance, inverse_t = std::max(t_1, t_2) + slip;
+        slot.compliance.x[lane] = compliance, slot.slip.x[lane] = slip;
+        slot.inverse_mass_n.x[lane] = inverse_n, slot.inverse_mass_t.x[lane] = inverse_t;
+        slot.mass_n.x[lane] = 1.0 / inverse_n, slot.mass_t.x[lane] = 1.0 / inverse_t;
+        slot.n_on_1.x[lane] = n_1, slot.n_on_2.x[lane] = n_2;
+        slot.target_n.x[lane] = p.target_n, slot.target_1.x[lane] = p.target_1;
+        slot.target_2.x[lane] = p.target_2;
+        (s.bounds_stay ? slot.bound : slot.coefficient).x[lane] = s.bounds_stay ? p.bound : p.coefficient;
+        slot.impulse_n.x[lane] = p.f_n, slot.impulse_1.x[lane] = p.f_1, slot.impulse_2.x[lane] = p.f_2;
+    }
+
+    /// L^-1 of a mass matrix L L^T (Cholesky), column by column.
+    static void invert_root(const SixBlock& mass, SixBlock& columns) {
+        double l[6][6] = {}, inverse[6];
+        for (std::size_t c = 0; c < 6; ++c) {
+            double sum = mass.row[c].x[c];
+            for (std::size_t k = 0; k < c; ++k) sum -= l[c][k] * l[c][k];
+            l[c][c] = std::sqrt(sum), inverse[c] = 1.0 / l[c][c];
+            for (std::size_t r = c + 1; r < 6; ++r) {
+                double x = mass.row[r].x[c];
+                for (std::size_t k = 0; k < c; ++k) x -= l[r][k] * l[c][k];
+                l[r][c] = x * inverse[c];
+            }
+        }
+        for (std::size_t c = 0; c < 6; ++c) {
+            double* x = columns.row[c].x;
+            for (std::size_t r = 0; r < 8; ++r) x[r] = 0;
+            x[c] = inverse[c];
+            for (std::size_t r = c + 1; r < 6; ++r) {
+                double sum = 0;
+                for (std::size_t k = c; k < r; ++k) sum -= l[r][k] * x[k];
+                x[r] = sum * inverse[r];
+            }
+        }
+    }
+
+    /// v = L^-T y, and the impulses.
+    static void finish(BodyIsland& s) {
+        for (std::size_t b = 0; b < s.bodies.size(); ++b) {
+            const Row y = load(s.swept[b]);
+            for (std::size_t i = 0; i < 6; ++i)
+                s.bodies[b].v.x[i] = roboss::total(load(s.whitening[b].row[i]) * y);
+        }
+        for (std::size_t k = 0; k < s.points.size(); ++k) {
+            const std::size_t place = s.pairs.place_of(k), lane = place % 8;
+            const PointSlot& slot = s.slots[place / 8];
+            BodyPoint& p = s.points[k];
+            p.swept_n = slot.impulse_n.x[lane];
+            p.swept_1 = slot.impulse_1.x[lane], p.swept_2 = slot.impulse_2.x[lane];
+        }
+    }
+};
+
+}  // namespace
+}  // namespace roboss
