@@ -35,10 +35,11 @@ void PairBatches::arrange(std::size_t bodies, const std::vector<BodyPoint>& poin
     for (std::uint32_t first = 0, last = 0; first < points.size(); first = last) {
         const BodyPoint& p = points[first];
         while (last < points.size() && points[last].a == p.a && points[last].b == p.b) ++last;
-        pairs_.push_back({take_colour(p.a, p.b), first, last - first});
+        pairs_.push_back({take_colour(p.a, p.b), p.b < 0, first, last - first});
     }
     std::ranges::sort(pairs_, [](const Pair& x, const Pair& y) {
-        return std::tuple(x.colour, y.points, x.first) < std::tuple(y.colour, x.points, y.first);
+        return std::tuple(x.colour, x.scenery, y.points, x.first) <
+               std::tuple(y.colour, y.scenery, x.points, y.first);
     });
     places_.resize(points.size());
     fill_batches(points, static_cast<int>(bodies));
@@ -49,10 +50,12 @@ void PairBatches::fill_batches(const std::vector<BodyPoint>& points, int nobody)
     std::size_t slots = 0;
     for (std::size_t k = 0; k < pairs_.size(); ++k) {
         const Pair& pair = pairs_[k];
-        if (k == 0 || pairs_[k - 1].colour != pair.colour || batches_.back().pairs == 8) {
+        if (k == 0 || pairs_[k - 1].colour != pair.colour || pairs_[k - 1].scenery != pair.scenery ||
+            batches_.back().pairs == 8) {
             PairBatch& batch = batches_.emplace_back();
             std::ranges::fill(batch.a, nobody), std::ranges::fill(batch.b, nobody);
             batch.first = slots, batch.last = slots + pair.points;
+            batch.scenery = pair.scenery;
             slots = batch.last;
         }
         PairBatch& batch = batches_.back();

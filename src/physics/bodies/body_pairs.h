@@ -37,11 +37,12 @@ struct PointSlot {
 struct PairBatch {
     int a[8], b[8];
     int pairs = 0;
+    bool scenery = false;             // so are all or none
     std::size_t first = 0, last = 0;  // slots
 };
 
 /// Pairs take colours in their order, each the lowest that none of its bodies has. Pairs of a colour fill
-/// batches, those with the most points first.
+/// batches: those of two bodies, then those with scenery, those with the most points first.
 class PairBatches {
   public:
     /// `points` of one pair must be neighbours.
@@ -54,7 +55,9 @@ class PairBatches {
 
   private:
     struct Pair {
-        std::uint32_t colour, first, points;  // in `points`
+        std::uint32_t colour = 0;
+        bool scenery = false;
+        std::uint32_t first = 0, points = 0;  // in `points`
     };
     std::uint32_t take_colour(int a, int b);
     void fill_batches(const std::vector<BodyPoint>& points, int nobody);

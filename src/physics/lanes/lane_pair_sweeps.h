@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
 #include "core/lanes_x86.h"
 #include "physics/lanes/lane_six.h"
@@ -109,14 +110,19 @@ class LaneSweeps {
         }
     }
 
+    template <bool kScenery>
     [[gnu::always_inline]] static Part along(const Eight* a, const Eight* b, const Velocities& y,
                                              std::size_t lane) {
         Part sums[6];
-        for (std::size_t i = 0; i < 6; ++i) sums[i] = at(a[i], lane) * y.a[i] + at(b[i], lane) * y.b[i];
+        for (std::size_t i = 0; i < 6; ++i) {
+            sums[i] = at(a[i], lane) * y.a[i];
+            if constexpr (!kScenery) sums[i] = sums[i] + at(b[i], lane) * y.b[i];
+        }
         return ((sums[0] + sums[1]) + (sums[2] + sums[3])) + (sums[4] + sums[5]);
     }
 
     /// A contact point of each pair; adds the squared change of the impulses, each by its effective mass.
+    template <bool kScenery>
     [[gnu::always_inline]] static void sweep_point(PointSlot& p, std::size_t lane, const Part& share,
                                                    Velocities& y, Part& change) {
         const auto accelerated = [&](const Eight& impulse, const Eight& last, Eight& direction) {
@@ -127,8 +133,9 @@ class LaneSweeps {
         const Part n_before = accelerated(p.impulse_n, p.change_n, p.direction_n),
                    t1_before = accelerated(p.impulse_1, p.change_1, p.direction_1),
                    t2_before = accelerated(p.impulse_2, p.change_2, p.direction_2);
-        const Part u_n = along(p.n_a, p.n_b, y, lane), u_1 = along(p.t1_a, p.t1_b, y, lane),
-                   u_2 = along(p.t2_a, p.t2_b, y, lane), none{};
+        const Part u_n = along<kScenery>(p.n_a, p.n_b, y, lane),
+                   u_1 = along<kScenery>(p.t1_a, p.t1_b, y, lane),
+                   u_2 = along<kScenery>(p.t2_a, p.t2_b, y, lane), none{};
         Part n = n_before +
                  ((at(p.target_n, lane) - u_n) - at(p.compliance, lane) * n_before) * at(p.mass_n, lane);
         n = n > none ? n : none;
@@ -144,6 +151,7 @@ class LaneSweeps {
         for (std::size_t i = 0; i < 6; ++i) {
             y.a[i] =
                 y.a[i] + ((at(p.n_a[i], lane) * dn + at(p.t1_a[i], lane) * d1) + at(p.t2_a[i], lane) * d2);
+            if constexpr (kScenery) continue;
             y.b[i] =
                 y.b[i] + ((at(p.n_b[i], lane) * dn + at(p.t1_b[i], lane) * d1) + at(p.t2_b[i], lane) * d2);
         }
@@ -151,6 +159,19 @@ class LaneSweeps {
         put(dn, lane, p.change_n), put(d1, lane, p.change_1), put(d2, lane, p.change_2);
         change = change +
                  (dn * dn * at(p.inverse_mass_n, lane) + (d1 * d1 + d2 * d2) * at(p.inverse_mass_t, lane));
+    }
+
+    /// The pairs of a batch from `lane` on.
+    template <bool kScenery>
+    [[gnu::always_inline]] static void sweep_batch(BodyIsland& s, const PairBatch& batch, std::size_t lane,
+                                                   const Part& share, Part& change) {
+        Velocities y;
+        gather(s.swept.data(), batch.a + lane, y.a);
+        if constexpr (!kScenery) gather(s.swept.data(), batch.b + lane, y.b);
+        for (std::size_t k = batch.first; k < batch.last; ++k)
+            sweep_point<kScenery>(s.slots[k], lane, share, y, change);
+        scatter(y.a, batch.a + lane, s.swept.data());
+        if constexpr (!kScenery) scatter(y.b, batch.b + lane, s.swept.data());
     }
 
     static double first_sweep(BodyIsland& s, SweepProgress& progress) {
@@ -166,13 +187,12 @@ class LaneSweeps {
         const Part shares = all(share);
         for (const PairBatch& batch : s.pairs.batches())
             for (std::size_t lane = 0; lane < static_cast<std::size_t>(batch.pairs); lane += kWidth) {
-                Velocities y;
-                gather(s.swept.data(), batch.a + lane, y.a), gather(s.swept.data(), batch.b + lane, y.b);
                 Part change = at(changes, lane);
-                for (std::size_t k = batch.first; k < batch.last; ++k)
-                    sweep_point(s.slots[k], lane, shares, y, change);
+                if (batch.scenery)
+                    sweep_batch<true>(s, batch, lane, shares, change);
+                else
+                    sweep_batch<false>(s, batch, lane, shares, change);
                 put(change, lane, changes);
-                scatter(y.a, batch.a + lane, s.swept.data()), scatter(y.b, batch.b + lane, s.swept.data());
             }
         return total(changes);
     }
@@ -228,7 +248,8 @@ class LaneSweeps {
             store(times(s.whitening[b], s.bodies[b].impulse), s.swept[b]);
         }
         s.swept[bodies] = {};
-        s.slots.assign(s.pairs.slots(), PointSlot{});
+        s.slots.resize(s.pairs.slots());
+        std::memset(static_cast<void*>(s.slots.data()), 0, s.slots.size() * sizeof(PointSlot));
         for (std::size_t k = 0; k < s.points.size(); ++k) take_point(s, k);
     }
 

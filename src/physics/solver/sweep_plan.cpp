@@ -17,7 +17,21 @@ bool SweepProgress::ends(double change) {
     if (change <= enough_ || sweeps_ >= most_) return true;
     share_ = sweeps_ > 1 && change <= last_ ? change / last_ : 0;
     last_ = change;
+    if (is_stuck(change)) share_ = 0;
     return false;
+}
+
+/// True in the second half of a series of sweeps that gets nowhere. In a pile that jams accelerated sweeps
+/// may run in a circle; without acceleration they leave it.
+bool SweepProgress::is_stuck(double change) {
+    constexpr double kProgress = 0.7;  // of the least change before
+    constexpr int kPatience = 16;
+    const bool improves = sweeps_ == 1 || change < kProgress * best_;
+    since_best_ = improves ? 0 : since_best_ + 1;
+    if (improves) best_ = change;
+    if (since_best_ < kPatience) return false;
+    if (since_best_ == 2 * kPatience) since_best_ = 0, best_ = change;
+    return true;
 }
 
 }  // namespace roboss

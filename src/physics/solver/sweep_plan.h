@@ -38,9 +38,11 @@ class SweepProgress {
     bool settled() const { return settled_; }
 
   private:
+    bool is_stuck(double change);
+
     SweepPlan plan_;
-    int sweeps_ = 0, most_ = 0;
-    double enough_ = 0, last_ = 0, share_ = 0;
+    int sweeps_ = 0, most_ = 0, since_best_ = 0;
+    double enough_ = 0, last_ = 0, best_ = 0, share_ = 0;
     bool moves_ = false, settled_ = false;
 };
 
