@@ -24,7 +24,7 @@ namespace {
 constexpr std::size_t kTrianglesMax = 2'000'000;
 constexpr std::uintmax_t kBytesMax = 512u << 20;
 constexpr double kFar = 1e6;  // m
-constexpr std::string_view kKinds[] = {".stl", ".obj", ".dae", ".glb", ".gltf"};
+constexpr std::string_view kKinds[] = {".stl", ".obj", ".dae", ".glb", ".gltf", ".fbx", ".ply"};
 
 std::string extension_of(const std::string& path) {
     std::string extension = std::filesystem::path(path).extension().string();
@@ -207,7 +207,7 @@ Result<const aiScene*> open_scene(Assimp::Importer& importer, const std::string&
     const std::string extension = extension_of(path);
     if (std::ranges::find(kKinds, extension) == std::end(kKinds))
         return Error{"is of a kind ('" + extension + "') that is not read",
-                     "Convert it to STL, OBJ, DAE (COLLADA) or GLB (glTF)."};
+                     "Convert it to STL, OBJ, DAE (COLLADA), GLB (glTF), FBX or PLY."};
     importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, true);
     importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_USE_COLLADA_NAMES, true);
     const aiScene* scene = importer.ReadFile(path, aiProcess_Triangulate);

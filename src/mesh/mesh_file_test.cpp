@@ -116,6 +116,39 @@ TEST(MeshFile, StlObjAndDaeGiveTheSameSolid) {
     expect_tetrahedron(read_mesh({folder.write("d.dae", dae("1", "Z_UP")), {1, 1, 1}, "", false}), 1.0 / 6);
 }
 
+TEST(MeshFile, PlyGivesTheSameSolid) {
+    const Folder folder;
+    std::string text =
+        "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\n"
+        "element face 4\nproperty list uchar int vertex_indices\nend_header\n";
+    for (const auto& v : kCorners)
+        text += std::to_string(v[0]) + " " + std::to_string(v[1]) + " " + std::to_string(v[2]) + "\n";
+    for (const auto& f : kFaces)
+        text += "3 " + std::to_string(f[0]) + " " + std::to_string(f[1]) + " " + std::to_string(f[2]) + "\n";
+    expect_tetrahedron(read_mesh({folder.write("a.ply", text), {1, 1, 1}, "", false}), 1.0 / 6);
+}
+
+TEST(MeshFile, FbxKeepsItsNumbersWhateverItsUpAxis) {
+    const Folder folder;
+    for (const std::string up : {"1", "2"}) {
+        const std::string front = up == "1" ? "2" : "1";
+        const std::string text =
+            "; FBX 7.3.0 project file\nFBXHeaderExtension: {\n FBXHeaderVersion: 1003\n FBXVersion: 7300\n}\n"
+            "GlobalSettings: {\n Properties70: {\n  P: \"UpAxis\", \"int\", \"Integer\", \"\"," +
+            up + "\n  P: \"FrontAxis\", \"int\", \"Integer\", \"\"," + front +
+            "\n }\n}\nObjects: {\n Geometry: 100, \"Geometry::part\", \"Mesh\" {\n"
+            "  Vertices: *12 {\n   a: 0,0,0,1,0,0,0,1,0,0,0,3\n  }\n"
+            "  PolygonVertexIndex: *12 {\n   a: 0,2,-2,0,1,-4,0,3,-3,1,2,-4\n  }\n }\n"
+            " Model: 200, \"Model::node\", \"Mesh\" {\n }\n}\n"
+            "Connections: {\n C: \"OO\",200,0\n C: \"OO\",100,200\n}\n";
+        const auto file = read_mesh({folder.write("a.fbx", text), {1, 1, 1}, "", false});
+        expect_tetrahedron(file, 3.0 / 6);
+        double top = 0;
+        for (const Vec3& v : file.value().mesh.vertices) top = std::max(top, v.z);
+        EXPECT_EQ(top, 3.0) << up;
+    }
+}
+
 TEST(MeshFile, ScaleMirrorsAndStretches) {
     const Folder folder;
     const std::string path = folder.write("a.stl", binary_stl());

@@ -2,6 +2,10 @@
 #include "mjcf/load_mjcf.h"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
 
 #include "mjcf/test_files.h"
 #include "world/joint_type.h"
@@ -73,6 +77,54 @@ TEST(LoadMjcf, SizesAreHalfLengths) {
     EXPECT_DOUBLE_EQ(link.mass, 100 * .2 * .4 * .6);
     EXPECT_DOUBLE_EQ(link.collisions[1].geometry.length, .4);
     EXPECT_DOUBLE_EQ(link.collisions[1].X_LS.p.z, .2);
+}
+
+TEST(LoadMjcf, AnObjFileWithoutFacesIsTheConvexHullOfItsPoints) {
+    const std::string path =
+        (std::filesystem::temp_directory_path() / ("roboss-points-" + std::to_string(getpid()) + ".obj"))
+            .string();
+    std::ofstream(path) << "v 0 0 0\nv 2 0 0\nv 0 2 0\nv 0 0 2\nv .1 .1 .1\nvn 0 0 1\n";
+    const Loaded loaded =
+        load_bodies("<body name='b'><freejoint/><geom type='mesh' mesh='m' density='300'/></body>",
+                    "<asset><mesh name='m' file='" + path + "'/></asset>");
+    std::filesystem::remove(path);
+    ASSERT_TRUE(loaded.world) << loaded.text();
+    EXPECT_NEAR(loaded.model("b")->links[0].mass, 300 * 8.0 / 6, 1e-6);
+}
+
+TEST(LoadMjcf, AFileIsIncludedOnceByEachOfItsNamesAndNeverInItself) {
+    namespace fs = std::filesystem;
+    const fs::path folder = fs::temp_directory_path() / ("roboss-include-" + std::to_string(getpid()));
+    fs::create_directory(folder);
+    std::ofstream(folder / "part.xml") << "<mujocoinclude><geom size='.1'/></mujocoinclude>";
+    fs::create_symlink("part.xml", folder / "again.xml");
+    std::ofstream(folder / "cycle.xml") << "<mujocoinclude><include file='ring.xml'/></mujocoinclude>";
+    fs::create_symlink("cycle.xml", folder / "ring.xml");
+    const auto load = [&](const std::string& first, const std::string& second) {
+        return load_text("<mujoco><worldbody><body><freejoint/><include file='" + first +
+                             "'/><include file='" + second + "'/></body></worldbody></mujoco>",
+                         folder / "robot.xml");
+    };
+    const Loaded linked = load("part.xml", "again.xml"), twice = load("part.xml", "./part.xml"),
+                 ring = load("part.xml", "cycle.xml");
+    fs::remove_all(folder);
+    ASSERT_TRUE(linked.world) << linked.text();
+    EXPECT_EQ(linked.world->prototypes[0].links[0].collisions.size(), 2u);
+    EXPECT_NE(twice.find("include-twice"), nullptr) << twice.text();
+    EXPECT_NE(ring.find("include-twice"), nullptr) << ring.text();
+}
+
+TEST(LoadMjcf, AnEndTagTooManyAtTheEndIsAWarningAndOneTooFewAnError) {
+    const std::string file =
+        "<mujoco><worldbody><body><freejoint/><geom size='.1'/></body></worldbody></mujoco>\n";
+    const Loaded loaded = load_text(file + "</mujoco> </mujoco>\n");
+    ASSERT_TRUE(loaded.world) << loaded.text();
+    ASSERT_NE(loaded.find("stray-end-tag"), nullptr);
+    EXPECT_EQ(loaded.find("stray-end-tag")->where.line, 2);
+    EXPECT_EQ(loaded.world->prototypes.size(), 1u);
+    for (const char* text : {"<mujoco><worldbody><mujoco></mujoco></mujoco>",
+                             "<mujoco></mujoco></mujoco><a/>", "<mujoco><a></b></mujoco>", "</mujoco>"})
+        EXPECT_NE(load_text(text).find("malformed-xml"), nullptr) << text;
 }
 
 TEST(LoadMjcf, ClassesReachElementsThroughChildclass) {
