@@ -198,7 +198,18 @@ std::string text_of(const std::string& path) {
     return std::move(text).str();
 }
 
-Result<const aiScene*> open_scene(Assimp::Importer& importer, const std::string& path) {
+/// The same file without ".." on the way: assimp takes a folder of such a path for the missing .mtl of an OBJ
+/// file.
+std::string straight(const std::string& path) {
+    const std::filesystem::path file(path);
+    std::error_code error;
+    const std::filesystem::path folder = std::filesystem::canonical(
+        file.has_parent_path() ? file.parent_path() : std::filesystem::path("."), error);
+    return error ? path : (folder / file.filename()).string();
+}
+
+Result<const aiScene*> open_scene(Assimp::Importer& importer, const std::string& given) {
+    const std::string path = straight(given);
     std::error_code error;
     const auto bytes = std::filesystem::file_size(path, error);
     if (error) return Error{"cannot be read: " + error.message(), "Check that it is a file and may be read."};

@@ -149,6 +149,17 @@ TEST(MeshFile, FbxKeepsItsNumbersWhateverItsUpAxis) {
     }
 }
 
+TEST(MeshFile, AnObjFileWithoutItsMaterialsIsReadByAWayThroughItsParentFolder) {
+    const Folder folder;
+    const std::string path = folder.write("leg1.obj", "mtllib leg1.mtl\n" + kObj);
+    const std::filesystem::path place = std::filesystem::path(path).parent_path();
+    std::filesystem::create_directory(place / "robots");
+    std::filesystem::create_directory(place / "meshes");
+    std::filesystem::rename(path, place / "meshes" / "leg1.obj");
+    const std::string way = (place / "robots" / ".." / "meshes" / "leg1.obj").string();
+    expect_tetrahedron(read_mesh({way, {1, 1, 1}, "", false}), 1.0 / 6);
+}
+
 TEST(MeshFile, ScaleMirrorsAndStretches) {
     const Folder folder;
     const std::string path = folder.write("a.stl", binary_stl());
