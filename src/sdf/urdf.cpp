@@ -76,6 +76,16 @@ void add_views(const std::map<std::string, std::string>& views, std::string& sdf
     }
 }
 
+/// Each <inertial> becomes one that is computed from the link's collisions, those merged into it included.
+void make_inertials_automatic(std::string& sdf) {
+    const std::string begin = "<inertial>", end = "</inertial>", automatic = "<inertial auto='true'/>";
+    for (std::size_t at = 0; (at = sdf.find(begin, at)) != std::string::npos; at += automatic.size()) {
+        const std::size_t to = sdf.find(end, at);
+        if (to == std::string::npos) return;
+        sdf.replace(at, to + end.size() - at, automatic);
+    }
+}
+
 /// The elements of a transmission with their texts, but for the joints that it names.
 void list_parts(pugi::xml_node parent, std::string& parts) {
     for (const auto node : parent.children()) {
@@ -266,6 +276,7 @@ std::unique_ptr<SourceFile> urdf_to_sdf(const SourceFile& urdf, Diagnostics& dia
     repaired.append_copy(urdf.root());
     const pugi::xml_node robot = repaired.document_element();
     repair_urdf(robot, urdf, diagnostics);
+    const bool masses_follow = stand_in_for_masses(robot, urdf, diagnostics);
     report_transmissions(urdf, diagnostics);
     const auto joint_types = replace_joint_types(robot, urdf, diagnostics);
     const auto views = replace_narrow_views(robot);
@@ -304,6 +315,7 @@ std::unique_ptr<SourceFile> urdf_to_sdf(const SourceFile& urdf, Diagnostics& dia
     }
     add_merged_links(robot, text);
     if (!report_lost_links(urdf, robot, text, diagnostics)) return nullptr;
+    if (masses_follow) make_inertials_automatic(text);
     add_mimics(robot, text);
     add_joint_types(joint_types, text);
     add_views(views, text);

@@ -3,6 +3,7 @@
 #include "sdf/urdf_repairs.h"
 
 #include <algorithm>
+#include <filesystem>
 #include <map>
 #include <optional>
 #include <set>
@@ -72,6 +73,17 @@ void mend_version(pugi::xml_node robot, const SourceFile& urdf, Diagnostics& dia
                         "version=\"" + std::string(version.value()) + "\" of <robot> is read as 1.0",
                         "Write version=\"1.0\", or none.");
     robot.remove_attribute("version");
+}
+
+/// urdfdom refuses a robot without a name.
+void mend_name(pugi::xml_node robot, const SourceFile& urdf, Diagnostics& diagnostics) {
+    if (robot.attribute("name").value()[0] != 0) return;
+    std::string name = std::filesystem::path(urdf.path()).stem().string();
+    if (name.empty()) name = "robot";
+    robot.remove_attribute("name");
+    robot.append_attribute("name") = name.c_str();
+    diagnostics.warning(urdf.where(urdf.root()), "unnamed-robot",
+                        "<robot> has no name; it gets that of its file: '" + name + "'", "Write its name.");
 }
 
 void rename_joints(pugi::xml_node robot, const SourceFile& urdf, Diagnostics& diagnostics) {
@@ -149,6 +161,19 @@ bool has_mass(pugi::xml_node link) {
     return mass && parse_number(mass.value()) != 0.0;
 }
 
+bool is_world(pugi::xml_node link) {
+    return std::string_view(link.attribute("name").value()) == "world";
+}
+
+void give_unit_inertial(pugi::xml_node link) {
+    link.remove_child("inertial");
+    auto inertial = link.append_child("inertial");
+    inertial.append_child("mass").append_attribute("value") = 1;
+    auto inertia = inertial.append_child("inertia");
+    for (const char* moment : {"ixx", "iyy", "izz"}) inertia.append_attribute(moment) = 1;
+    for (const char* product : {"ixy", "ixz", "iyz"}) inertia.append_attribute(product) = 0;
+}
+
 /// Without a mass anywhere nothing moves: a table, a plane. PyBullet has them as scenery.
 void make_scenery(pugi::xml_node robot, const SourceFile& urdf, Diagnostics& diagnostics) {
     const auto links = robot.children("link"), joints = robot.children("joint");
@@ -156,15 +181,8 @@ void make_scenery(pugi::xml_node robot, const SourceFile& urdf, Diagnostics& dia
         std::any_of(links.begin(), links.end(), has_mass) ||
         std::none_of(links.begin(), links.end(), is_visible))
         return;
-    for (auto link : links) {
-        if (std::string_view(link.attribute("name").value()) == "world") continue;
-        link.remove_child("inertial");
-        auto inertial = link.append_child("inertial");
-        inertial.append_child("mass").append_attribute("value") = 1;
-        auto inertia = inertial.append_child("inertia");
-        for (const char* moment : {"ixx", "iyy", "izz"}) inertia.append_attribute(moment) = 1;
-        for (const char* product : {"ixy", "ixz", "iyz"}) inertia.append_attribute(product) = 0;
-    }
+    for (auto link : links)
+        if (!is_world(link)) give_unit_inertial(link);
     robot.append_child("gazebo").append_child("static").text() = "true";
     diagnostics.warning(urdf.where(urdf.root().child("link")), "no-inertial",
                         "no link has mass, and no joint moves: the model stands still, as scenery",
@@ -175,11 +193,27 @@ void make_scenery(pugi::xml_node robot, const SourceFile& urdf, Diagnostics& dia
 
 void repair_urdf(pugi::xml_node robot, const SourceFile& urdf, Diagnostics& diagnostics) {
     mend_version(robot, urdf, diagnostics);
+    mend_name(robot, urdf, diagnostics);
     make_scenery(robot, urdf, diagnostics);
     mend_inertials(robot, urdf, diagnostics);
     drop_empty_inertials(robot);
     rename_scoped(robot, urdf, diagnostics);
     rename_joints(robot, urdf, diagnostics);
+}
+
+bool stand_in_for_masses(pugi::xml_node robot, const SourceFile& urdf, Diagnostics& diagnostics) {
+    const auto links = robot.children("link"), joints = robot.children("joint");
+    const auto collides = [](pugi::xml_node link) { return !is_world(link) && link.child("collision"); };
+    if (std::none_of(joints.begin(), joints.end(), moves) ||
+        std::any_of(links.begin(), links.end(), has_mass) ||
+        std::none_of(links.begin(), links.end(), collides))
+        return false;
+    for (const auto link : links)
+        if (!is_world(link)) give_unit_inertial(link);
+    diagnostics.warning(urdf.where(urdf.root().child("link")), "no-inertial",
+                        "no link has mass: masses follow from the collisions, at 1000 kg/m^3 as in MuJoCo",
+                        "Give each link an <inertial> with <mass> and <inertia>.");
+    return true;
 }
 
 std::map<std::string, std::string> replace_joint_types(pugi::xml_node robot, const SourceFile& urdf,

@@ -88,6 +88,33 @@ TEST(Urdf, ThatIsBrokenIsAnErrorAtTheLink) {
     EXPECT_TRUE(load_text("<robot name='r'/>", "r.urdf").diagnostics.has_errors());
 }
 
+TEST(Urdf, WithoutAnyMassButWithJointsThatMoveHasMassesOfItsCollisions) {
+    const std::string axis = "<axis xyz='0 1 0'/></joint>";
+    const Loaded loaded = load_text(
+        "<robot>\n<link name='base'><collision><geometry><box size='1 1 .1'/></geometry></collision></link>\n"
+        "<link name='arm'><inertial><mass value='0'/></inertial></link>\n"
+        "<link name='cover'><collision><geometry><box size='.1 .1 1'/></geometry></collision></link>\n"
+        "<link name='wire'/>\n"
+        "<joint name='j' type='continuous'><parent link='base'/><child link='arm'/>" +
+            axis +
+            "<joint name='f' type='fixed'><origin xyz='0 0 .5'/><parent link='arm'/><child "
+            "link='cover'/></joint>" +
+            "<joint name='k' type='continuous'><parent link='arm'/><child link='wire'/>" + axis + "</robot>",
+        "folder/bare.urdf");
+    ASSERT_TRUE(loaded.world) << loaded.text();
+    EXPECT_EQ(loaded.world->prototypes.size(), 1u);
+    const ModelSpec* model = loaded.model("bare");
+    ASSERT_NE(model, nullptr) << loaded.text();
+    ASSERT_EQ(model->links.size(), 3u);
+    EXPECT_NEAR(model->links[0].mass, 100, 1e-9);
+    EXPECT_NEAR(model->links[1].mass, 10, 1e-9);
+    EXPECT_NEAR(model->links[1].p_LC.z, 0.5, 1e-9);
+    EXPECT_NEAR(model->links[1].inertia_C(0, 0), 10 * 1.01 / 12, 1e-9);
+    EXPECT_EQ(model->links[2].mass, 1) << "a link without collision has SDFormat's default";
+    EXPECT_NE(loaded.find("unnamed-robot"), nullptr);
+    EXPECT_EQ(loaded.find("no-inertial")->severity, Severity::kWarning);
+}
+
 TEST(Urdf, SaysWhichLinksHaveNoInertial) {
     const Loaded none = load_text(
         "<robot name='r'>\n<link name='base'/>\n<link name='arm'/>\n<joint name='j' type='continuous'>"
