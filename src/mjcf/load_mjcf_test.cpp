@@ -171,6 +171,28 @@ TEST(LoadMjcf, ActuatorsBecomeGainsAndBoundsOfTheJoint) {
     EXPECT_DOUBLE_EQ(motor.max_effort, 50);
 }
 
+TEST(LoadMjcf, AnActuatorOfAFixedTendonDrivesTheJointThatAnEqualityTiesTheOthersTo) {
+    const auto load = [](const std::string& equality) {
+        return load_bodies(
+            "<body name='b'><geom size='.1'/><body><joint name='l' type='slide'/><geom size='.1'/></body>"
+            "<body><joint name='r' type='slide'/><geom size='.1'/></body></body>",
+            "<tendon><fixed name='both'><joint joint='r' coef='.5'/><joint joint='l' "
+            "coef='.25'/></fixed></tendon>" +
+                equality + "<actuator><position tendon='both' kp='100' forcerange='-40 40'/></actuator>");
+    };
+    const Loaded tied = load("<equality><joint joint1='r' joint2='l' polycoef='0 3 0 0 0'/></equality>");
+    ASSERT_TRUE(tied.world) << tied.text();
+    EXPECT_EQ(tied.find("ignored-actuator"), nullptr) << tied.text();
+    const ModelSpec& model = *tied.model("b");
+    const AxisSpec &leader = model.joints[1].axes[0], &follower = model.joints[2].axes[0];
+    ASSERT_EQ(model.joints[1].name, "l");
+    constexpr double kGear = .25 + 3 * .5;
+    EXPECT_DOUBLE_EQ(leader.position_gain, 100 * kGear * kGear);
+    EXPECT_DOUBLE_EQ(leader.max_effort, 40 * kGear);
+    EXPECT_EQ(follower.position_gain, 0);
+    EXPECT_NE(load("").find("ignored-actuator"), nullptr) << "two joints, each free";
+}
+
 TEST(LoadMjcf, DampingRatiosCountTheInertiaThatTheJointMoves) {
     const Loaded loaded = load_bodies(
         "<body name='b'><joint name='a' axis='0 1 0' armature='.5'/><geom size='.1' mass='2' pos='0 0 "
@@ -310,7 +332,7 @@ TEST(LoadMjcf, WhatHasNoEffectIsTold) {
     const Loaded loaded = load_bodies(
         "<body name='b'><joint name='j' springdamper='1 1' stifness='2'/><geom size='.1' solref='.1 1'/>"
         "<bodi/></body>",
-        "<tendon><fixed name='t'><joint joint='j' coef='1'/></fixed></tendon>"
+        "<tendon><spatial name='t'><site site='a'/><site site='b'/></spatial></tendon>"
         "<actuator><motor tendon='t'/></actuator><option viscosity='1'/>");
     ASSERT_TRUE(loaded.world) << loaded.text();
     EXPECT_NE(loaded.find("unknown-attribute"), nullptr);
