@@ -203,10 +203,9 @@ void repair_urdf(pugi::xml_node robot, const SourceFile& urdf, Diagnostics& diag
 
 bool stand_in_for_masses(pugi::xml_node robot, const SourceFile& urdf, Diagnostics& diagnostics) {
     const auto links = robot.children("link"), joints = robot.children("joint");
-    const auto collides = [](pugi::xml_node link) { return !is_world(link) && link.child("collision"); };
     if (std::none_of(joints.begin(), joints.end(), moves) ||
         std::any_of(links.begin(), links.end(), has_mass) ||
-        std::none_of(links.begin(), links.end(), collides))
+        std::none_of(links.begin(), links.end(), is_visible))
         return false;
     for (const auto link : links)
         if (!is_world(link)) give_unit_inertial(link);
