@@ -221,12 +221,16 @@ Result<const aiScene*> open_scene(Assimp::Importer& importer, const std::string&
                      "Convert it to STL, OBJ, DAE (COLLADA), GLB (glTF), FBX or PLY."};
     importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, true);
     importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_USE_COLLADA_NAMES, true);
-    const aiScene* scene = importer.ReadFile(path, aiProcess_Triangulate);
+    const auto read_collada = [&](const std::string& text) {
+        return importer.ReadFileFromMemory(text.data(), text.size(), aiProcess_Triangulate, "dae");
+    };
+    const std::string text = extension == ".dae" ? text_of(path) : std::string();
+    const std::string plain = text.empty() ? text : collada_without_skins(text);
+    const aiScene* scene =
+        plain.empty() ? importer.ReadFile(path, aiProcess_Triangulate) : read_collada(plain);
     const std::string why = importer.GetErrorString();
-    if (scene == nullptr && extension == ".dae") {
-        const std::string repaired = repaired_collada(text_of(path));
-        scene = importer.ReadFileFromMemory(repaired.data(), repaired.size(), aiProcess_Triangulate, "dae");
-    }
+    if (scene == nullptr && !text.empty())
+        scene = read_collada(repaired_collada(plain.empty() ? text : plain));
     if (scene == nullptr) return Error{"is no mesh that can be read: " + why, "Export it anew."};
     return scene;
 }

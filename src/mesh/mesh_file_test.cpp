@@ -190,6 +190,34 @@ TEST(MeshFile, ColladaWithSpaceBeforeItsNumbersIsRead) {
     expect_tetrahedron(read_mesh({folder.write("space.dae", text), {1, 1, 1}, "", false}), 1.0 / 6);
 }
 
+TEST(MeshFile, ASkinOfColladaIsItsMeshWhateverItsWeightsAre) {
+    const Folder folder;
+    std::string text = dae("1", "Z_UP");
+    const std::string geometry = "<instance_geometry url='#g'/>", scenes = "<library_visual_scenes>";
+    text.replace(text.find(geometry), geometry.size(),
+                 "<instance_controller url='#k'></instance_controller>");
+    text.insert(
+        text.find(scenes),
+        "<library_controllers><controller id='k'><skin source='#g'>"
+        "<source id='j'><Name_array id='ja' count='1'>bone</Name_array><technique_common><accessor "
+        "source='#ja' "
+        "count='1' stride='1'><param name='JOINT' type='Name'/></accessor></technique_common></source>"
+        "<source id='w'><float_array id='wa' count='1'>1</float_array><technique_common><accessor "
+        "source='#wa' "
+        "count='1' stride='1'><param name='WEIGHT' type='float'/></accessor></technique_common></source>"
+        "<source id='b'><float_array id='ba' count='16'>1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1</float_array>"
+        "<technique_common><accessor source='#ba' count='1' stride='16'><param name='T' "
+        "type='float4x4'/></accessor>"
+        "</technique_common></source>"
+        "<joints><input semantic='JOINT' source='#j'/><input semantic='INV_BIND_MATRIX' "
+        "source='#b'/></joints>"
+        "<vertex_weights count='4'><input semantic='JOINT' source='#j' offset='0'/><input semantic='WEIGHT' "
+        "source='#w' offset='1'/><vcount>1 1 1 1</vcount><v>0 0 0 0 0 90000000 90000000 "
+        "0</v></vertex_weights>"
+        "</skin></controller></library_controllers>");
+    expect_tetrahedron(read_mesh({folder.write("skin.dae", text), {1, 1, 1}, "", false}), 1.0 / 6);
+}
+
 TEST(MeshFile, ASubmeshIsTakenByNameAndCentred) {
     const Folder folder;
     const std::string path = folder.write("a.dae", dae("1", "Z_UP"));
