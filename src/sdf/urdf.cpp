@@ -11,6 +11,7 @@
 #include <string_view>
 
 #include "sdf/console_capture.h"
+#include "sdf/urdf_control.h"
 #include "sdf/urdf_repairs.h"
 
 namespace roboss::sdf_import {
@@ -61,6 +62,16 @@ void add_joint_types(const std::map<std::string, std::string>& types, std::strin
         const std::size_t at = sdf.find("<joint name='" + name + "'");
         const std::size_t end = at == std::string::npos ? at : sdf.find('>', at);
         if (end != std::string::npos) sdf.insert(end + 1, "<roboss:joint type='" + type + "'/>");
+    }
+}
+
+/// Gives the joints the positions that they start at, on the same line.
+void add_initial_positions(const std::map<std::string, std::string>& positions, std::string& sdf) {
+    for (const auto& [joint, position] : positions) {
+        const std::size_t at = sdf.find("<joint name='" + joint + "'");
+        const std::size_t axis = at == std::string::npos ? at : sdf.find("<axis>", at);
+        if (axis == std::string::npos || axis > sdf.find("</joint>", at)) continue;
+        sdf.insert(axis + 6, "<initial_position>" + position + "</initial_position>");
     }
 }
 
@@ -278,6 +289,7 @@ std::unique_ptr<SourceFile> urdf_to_sdf(const SourceFile& urdf, Diagnostics& dia
     repair_urdf(robot, urdf, diagnostics);
     const bool masses_follow = stand_in_for_masses(robot, urdf, diagnostics);
     report_transmissions(urdf, diagnostics);
+    const auto positions = read_ros2_control(robot, urdf, diagnostics);
     const auto joint_types = replace_joint_types(robot, urdf, diagnostics);
     const auto views = replace_narrow_views(robot);
     sdf::Errors errors;
@@ -317,6 +329,7 @@ std::unique_ptr<SourceFile> urdf_to_sdf(const SourceFile& urdf, Diagnostics& dia
     if (!report_lost_links(urdf, robot, text, diagnostics)) return nullptr;
     if (masses_follow) make_inertials_automatic(text);
     add_mimics(robot, text);
+    add_initial_positions(positions, text);
     add_joint_types(joint_types, text);
     add_views(views, text);
     std::vector<int> lines = map_lines(urdf, robot, text);

@@ -36,12 +36,19 @@ void mend_number(pugi::xml_attribute attribute, const SourceLocation& where, Dia
 void mend_inertial(pugi::xml_node inertial, const SourceLocation& where, Diagnostics& diagnostics) {
     for (const auto child : {inertial.child("mass"), inertial.child("inertia")})
         for (const auto attribute : child.attributes()) mend_number(attribute, where, diagnostics);
-    if (!inertial.child("mass") || inertial.child("inertia")) return;
-    auto inertia = inertial.append_child("inertia");
-    for (const char* moment : {"ixx", "ixy", "ixz", "iyy", "iyz", "izz"})
+    if (!inertial.child("mass")) return;
+    auto inertia = inertial.child("inertia");
+    if (!inertia) inertia = inertial.append_child("inertia");
+    std::string missing;
+    for (const char* moment : {"ixx", "ixy", "ixz", "iyy", "iyz", "izz"}) {
+        if (inertia.attribute(moment)) continue;
         inertia.append_attribute(moment) = "0";
+        missing += (missing.empty() ? "" : ", ") + std::string(moment);
+    }
+    if (missing.empty()) return;
     diagnostics.warning(where, "missing-inertia",
-                        "an <inertial> has no <inertia>; its moments are taken as 0", "Write its moments.");
+                        "of an <inertial> are missing " + missing + "; they are taken as 0",
+                        "Write its moments.");
 }
 
 void mend_inertials(pugi::xml_node robot, const SourceFile& urdf, Diagnostics& diagnostics) {

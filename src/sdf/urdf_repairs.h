@@ -12,7 +12,7 @@ namespace roboss::sdf_import {
 
 /// In a copy of the <robot> of `urdf`, each with a warning:
 /// - numbers of an <inertial> with white space or text behind them become those numbers;
-/// - an inertial with a mass but without moments gets moments of 0, which compile() mends;
+/// - an inertial with a mass but without all moments gets moments of 0, which compile() mends;
 /// - a joint with the name of a link gets "_joint" behind it: SDFormat has one set of names for both;
 /// - "::" in names becomes "__": SDFormat keeps it for nested models;
 /// - a robot without mass and without a joint that moves becomes a static model;
