@@ -53,6 +53,16 @@ std::string without(std::string text, const std::string& element) {
     return text;
 }
 
+/// assimp 5.2 takes a comment among the inputs of <vertices> for an element.
+std::string without_comments(std::string text) {
+    for (std::size_t from = 0; (from = text.find("<!--", from)) != std::string::npos;) {
+        const std::size_t end = text.find("-->", from + 4);
+        if (end == std::string::npos) break;
+        text.erase(from, end + 3 - from);
+    }
+    return text;
+}
+
 /// The value of an attribute of the tag that begins at `tag`; empty: it has none.
 std::string attribute_of(const std::string& text, std::size_t tag, const std::string& name) {
     const std::size_t end = text.find('>', tag);
@@ -103,7 +113,7 @@ std::string collada_without_skins(const std::string& text) {
 }
 
 std::string repaired_collada(const std::string& text) {
-    std::string result = without_leading_space(text);
+    std::string result = without_leading_space(without_comments(text));
     for (const char* element : {"texture", "library_images", "library_animations", "library_controllers"})
         result = without(std::move(result), element);
     return result;

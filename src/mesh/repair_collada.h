@@ -5,7 +5,7 @@
 
 namespace roboss {
 
-/// The text without white space before the first number of an element, and without references to pictures:
+/// The text without comments, white space before the first number of an element, and references to pictures:
 /// what is drawn over such a mesh is lost, its triangles are not.
 std::string repaired_collada(const std::string& text);
 

@@ -17,6 +17,10 @@ TEST(RepairCollada, PicturesAreTakenOutWhole) {
     EXPECT_EQ(repaired_collada("<textures>1</textures>"), "<textures>1</textures>");
 }
 
+TEST(RepairCollada, CommentsAreTakenOut) {
+    EXPECT_EQ(repaired_collada("<v><!-- <i/> --><j/><!----></v><!-- open"), "<v><j/></v><!-- open");
+}
+
 TEST(RepairCollada, SkinsAndMorphsBecomeTheirGeometry) {
     const std::string library =
         "<library_controllers><controller name='s' id='skin'><skin source='#morph'/></controller>"
