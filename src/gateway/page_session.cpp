@@ -16,7 +16,7 @@ namespace beast = boost::beast;
 namespace websocket = beast::websocket;
 
 constexpr std::size_t kLinesMissAt = 8, kSessionLinesMax = 4'000;
-constexpr std::int64_t kSilent_s = 30, kExtrasEvery_ms = 100;
+constexpr std::int64_t kSilent_s = 30, kFarewell_s = 2, kExtrasEvery_ms = 100;
 constexpr std::size_t kTypeWithin = 64;  // bytes of a large message
 
 const std::string kTooLarge =
@@ -99,13 +99,31 @@ void PageSession::leave() {
 
 void PageSession::end(const std::string& why, const std::string& code) {
     if (std::exchange(ended_, true)) return;
-    open_ = false;
+    const bool says_why =
+        std::exchange(open_, false) && !code.empty() && code != "broken" && code != "timeout";
     if (!why.empty())
         core_.notice("viewer: page " + std::to_string(number_) + " of " + peer_ + ": " + why +
                      (code.empty() ? "" : " [" + code + "]"));
     timer_.cancel();
-    close();
+    says_why ? close_because(code + ": " + why) : close();
     core_.dismiss(number_, {why, code});
+}
+
+/// Beast allows a close beside a read and a write. A client that does not answer it is cut off.
+void PageSession::close_because(const std::string& why) {
+    constexpr std::size_t kReasonMax = 123;  // bytes, of the protocol
+    std::string reason = why.substr(0, kReasonMax);
+    while (!reason.empty() && (static_cast<unsigned char>(why[reason.size()]) & 0xC0) == 0x80)
+        reason.pop_back();
+    timer_.expires_after(std::chrono::seconds(kFarewell_s));
+    timer_.async_wait([self = shared_from_this()](beast::error_code error) {
+        if (!error) self->close();
+    });
+    socket_.async_close({websocket::close_code::policy_error, reason},
+                        [self = shared_from_this()](beast::error_code) {
+                            self->timer_.cancel();
+                            self->close();
+                        });
 }
 
 void PageSession::read() {

@@ -55,6 +55,7 @@ class PageSession : public std::enable_shared_from_this<PageSession> {
     void write_next();
     /// `why` and its code are for the log and for the page, if it comes back; empty: it left by itself.
     void end(const std::string& why = {}, const std::string& code = {});
+    void close_because(const std::string& why);
     bool state_due();
     bool extras_due();
 

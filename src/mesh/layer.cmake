@@ -1,4 +1,4 @@
-# assimp reads STL, OBJ and COLLADA, libpng and libjpeg-turbo pictures. None of them shows in a header.
+# assimp reads meshes, libpng and libjpeg-turbo pictures. None of them shows in a header.
 find_package(assimp REQUIRED)
 find_package(PNG REQUIRED)
 find_package(libjpeg-turbo CONFIG REQUIRED)

@@ -24,7 +24,7 @@ namespace {
 constexpr std::size_t kTrianglesMax = 2'000'000;
 constexpr std::uintmax_t kBytesMax = 512u << 20;
 constexpr double kFar = 1e6;  // m
-constexpr std::string_view kKinds[] = {".stl", ".obj", ".dae", ".glb", ".gltf"};
+constexpr std::string_view kKinds[] = {".stl", ".obj", ".dae", ".glb", ".gltf", ".fbx", ".ply"};
 
 std::string extension_of(const std::string& path) {
     std::string extension = std::filesystem::path(path).extension().string();
@@ -198,7 +198,18 @@ std::string text_of(const std::string& path) {
     return std::move(text).str();
 }
 
-Result<const aiScene*> open_scene(Assimp::Importer& importer, const std::string& path) {
+/// The same file without ".." on the way: assimp takes a folder of such a path for the missing .mtl of an OBJ
+/// file.
+std::string straight(const std::string& path) {
+    const std::filesystem::path file(path);
+    std::error_code error;
+    const std::filesystem::path folder = std::filesystem::canonical(
+        file.has_parent_path() ? file.parent_path() : std::filesystem::path("."), error);
+    return error ? path : (folder / file.filename()).string();
+}
+
+Result<const aiScene*> open_scene(Assimp::Importer& importer, const std::string& given) {
+    const std::string path = straight(given);
     std::error_code error;
     const auto bytes = std::filesystem::file_size(path, error);
     if (error) return Error{"cannot be read: " + error.message(), "Check that it is a file and may be read."};
@@ -207,15 +218,19 @@ Result<const aiScene*> open_scene(Assimp::Importer& importer, const std::string&
     const std::string extension = extension_of(path);
     if (std::ranges::find(kKinds, extension) == std::end(kKinds))
         return Error{"is of a kind ('" + extension + "') that is not read",
-                     "Convert it to STL, OBJ, DAE (COLLADA) or GLB (glTF)."};
+                     "Convert it to STL, OBJ, DAE (COLLADA), GLB (glTF), FBX or PLY."};
     importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, true);
     importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_USE_COLLADA_NAMES, true);
-    const aiScene* scene = importer.ReadFile(path, aiProcess_Triangulate);
+    const auto read_collada = [&](const std::string& text) {
+        return importer.ReadFileFromMemory(text.data(), text.size(), aiProcess_Triangulate, "dae");
+    };
+    const std::string text = extension == ".dae" ? text_of(path) : std::string();
+    const std::string plain = text.empty() ? text : collada_without_skins(text);
+    const aiScene* scene =
+        plain.empty() ? importer.ReadFile(path, aiProcess_Triangulate) : read_collada(plain);
     const std::string why = importer.GetErrorString();
-    if (scene == nullptr && extension == ".dae") {
-        const std::string repaired = repaired_collada(text_of(path));
-        scene = importer.ReadFileFromMemory(repaired.data(), repaired.size(), aiProcess_Triangulate, "dae");
-    }
+    if (scene == nullptr && !text.empty())
+        scene = read_collada(repaired_collada(plain.empty() ? text : plain));
     if (scene == nullptr) return Error{"is no mesh that can be read: " + why, "Export it anew."};
     return scene;
 }

@@ -1,4 +1,4 @@
-// Mesh files (STL, OBJ, DAE, glTF) to plain triangles. The only place that knows assimp.
+// Mesh files (STL, OBJ, DAE, glTF, FBX, PLY) to plain triangles. The only place that knows assimp.
 #pragma once
 
 #include <cstdint>
@@ -24,9 +24,9 @@ struct MeshFile {
 };
 
 /// Corners with equal coordinates are joined, nodes' transforms and COLLADA's unit are applied, COLLADA's up
-/// axis is not (as in Gazebo); glTF's axes are taken as they stand. Coordinates have the digits of single
-/// precision, as assimp reads them. Errors: no such file, not a mesh, no triangles, a coordinate that is not
-/// finite or beyond 1e6 m, more than two million triangles, no such part.
+/// axis is not (as in Gazebo), nor are FBX's; glTF's axes are taken as they stand. Coordinates have the
+/// digits of single precision, as assimp reads them. Errors: no such file, not a mesh, no triangles, a
+/// coordinate that is not finite or beyond 1e6 m, more than two million triangles, no such part.
 Result<MeshFile> read_mesh(const MeshRequest& request);
 
 /// A picture that a mesh file names, or holds.

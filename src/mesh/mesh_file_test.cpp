@@ -116,6 +116,50 @@ TEST(MeshFile, StlObjAndDaeGiveTheSameSolid) {
     expect_tetrahedron(read_mesh({folder.write("d.dae", dae("1", "Z_UP")), {1, 1, 1}, "", false}), 1.0 / 6);
 }
 
+TEST(MeshFile, PlyGivesTheSameSolid) {
+    const Folder folder;
+    std::string text =
+        "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\n"
+        "element face 4\nproperty list uchar int vertex_indices\nend_header\n";
+    for (const auto& v : kCorners)
+        text += std::to_string(v[0]) + " " + std::to_string(v[1]) + " " + std::to_string(v[2]) + "\n";
+    for (const auto& f : kFaces)
+        text += "3 " + std::to_string(f[0]) + " " + std::to_string(f[1]) + " " + std::to_string(f[2]) + "\n";
+    expect_tetrahedron(read_mesh({folder.write("a.ply", text), {1, 1, 1}, "", false}), 1.0 / 6);
+}
+
+TEST(MeshFile, FbxKeepsItsNumbersWhateverItsUpAxis) {
+    const Folder folder;
+    for (const std::string up : {"1", "2"}) {
+        const std::string front = up == "1" ? "2" : "1";
+        const std::string text =
+            "; FBX 7.3.0 project file\nFBXHeaderExtension: {\n FBXHeaderVersion: 1003\n FBXVersion: 7300\n}\n"
+            "GlobalSettings: {\n Properties70: {\n  P: \"UpAxis\", \"int\", \"Integer\", \"\"," +
+            up + "\n  P: \"FrontAxis\", \"int\", \"Integer\", \"\"," + front +
+            "\n }\n}\nObjects: {\n Geometry: 100, \"Geometry::part\", \"Mesh\" {\n"
+            "  Vertices: *12 {\n   a: 0,0,0,1,0,0,0,1,0,0,0,3\n  }\n"
+            "  PolygonVertexIndex: *12 {\n   a: 0,2,-2,0,1,-4,0,3,-3,1,2,-4\n  }\n }\n"
+            " Model: 200, \"Model::node\", \"Mesh\" {\n }\n}\n"
+            "Connections: {\n C: \"OO\",200,0\n C: \"OO\",100,200\n}\n";
+        const auto file = read_mesh({folder.write("a.fbx", text), {1, 1, 1}, "", false});
+        expect_tetrahedron(file, 3.0 / 6);
+        double top = 0;
+        for (const Vec3& v : file.value().mesh.vertices) top = std::max(top, v.z);
+        EXPECT_EQ(top, 3.0) << up;
+    }
+}
+
+TEST(MeshFile, AnObjFileWithoutItsMaterialsIsReadByAWayThroughItsParentFolder) {
+    const Folder folder;
+    const std::string path = folder.write("leg1.obj", "mtllib leg1.mtl\n" + kObj);
+    const std::filesystem::path place = std::filesystem::path(path).parent_path();
+    std::filesystem::create_directory(place / "robots");
+    std::filesystem::create_directory(place / "meshes");
+    std::filesystem::rename(path, place / "meshes" / "leg1.obj");
+    const std::string way = (place / "robots" / ".." / "meshes" / "leg1.obj").string();
+    expect_tetrahedron(read_mesh({way, {1, 1, 1}, "", false}), 1.0 / 6);
+}
+
 TEST(MeshFile, ScaleMirrorsAndStretches) {
     const Folder folder;
     const std::string path = folder.write("a.stl", binary_stl());
@@ -144,6 +188,34 @@ TEST(MeshFile, ColladaWithSpaceBeforeItsNumbersIsRead) {
         "<library_effects><effect id='e'><profile_COMMON><technique sid='t'><phong><diffuse><color> 0.3 "
         "0.3 0.3 1</color></diffuse></phong></technique></profile_COMMON></effect></library_effects>");
     expect_tetrahedron(read_mesh({folder.write("space.dae", text), {1, 1, 1}, "", false}), 1.0 / 6);
+}
+
+TEST(MeshFile, ASkinOfColladaIsItsMeshWhateverItsWeightsAre) {
+    const Folder folder;
+    std::string text = dae("1", "Z_UP");
+    const std::string geometry = "<instance_geometry url='#g'/>", scenes = "<library_visual_scenes>";
+    text.replace(text.find(geometry), geometry.size(),
+                 "<instance_controller url='#k'></instance_controller>");
+    text.insert(
+        text.find(scenes),
+        "<library_controllers><controller id='k'><skin source='#g'>"
+        "<source id='j'><Name_array id='ja' count='1'>bone</Name_array><technique_common><accessor "
+        "source='#ja' "
+        "count='1' stride='1'><param name='JOINT' type='Name'/></accessor></technique_common></source>"
+        "<source id='w'><float_array id='wa' count='1'>1</float_array><technique_common><accessor "
+        "source='#wa' "
+        "count='1' stride='1'><param name='WEIGHT' type='float'/></accessor></technique_common></source>"
+        "<source id='b'><float_array id='ba' count='16'>1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1</float_array>"
+        "<technique_common><accessor source='#ba' count='1' stride='16'><param name='T' "
+        "type='float4x4'/></accessor>"
+        "</technique_common></source>"
+        "<joints><input semantic='JOINT' source='#j'/><input semantic='INV_BIND_MATRIX' "
+        "source='#b'/></joints>"
+        "<vertex_weights count='4'><input semantic='JOINT' source='#j' offset='0'/><input semantic='WEIGHT' "
+        "source='#w' offset='1'/><vcount>1 1 1 1</vcount><v>0 0 0 0 0 90000000 90000000 "
+        "0</v></vertex_weights>"
+        "</skin></controller></library_controllers>");
+    expect_tetrahedron(read_mesh({folder.write("skin.dae", text), {1, 1, 1}, "", false}), 1.0 / 6);
 }
 
 TEST(MeshFile, ASubmeshIsTakenByNameAndCentred) {

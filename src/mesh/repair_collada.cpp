@@ -1,7 +1,9 @@
 // Works on the text: a second XML parser would be too much for so little.
 #include "mesh/repair_collada.h"
 
+#include <algorithm>
 #include <cctype>
+#include <map>
 
 namespace roboss {
 namespace {
@@ -51,10 +53,67 @@ std::string without(std::string text, const std::string& element) {
     return text;
 }
 
+/// assimp 5.2 takes a comment among the inputs of <vertices> for an element.
+std::string without_comments(std::string text) {
+    for (std::size_t from = 0; (from = text.find("<!--", from)) != std::string::npos;) {
+        const std::size_t end = text.find("-->", from + 4);
+        if (end == std::string::npos) break;
+        text.erase(from, end + 3 - from);
+    }
+    return text;
+}
+
+/// The value of an attribute of the tag that begins at `tag`; empty: it has none.
+std::string attribute_of(const std::string& text, std::size_t tag, const std::string& name) {
+    const std::size_t end = text.find('>', tag);
+    for (std::size_t at = tag; (at = text.find(name + "=", at)) < end; at += name.size()) {
+        const std::size_t quote = at + name.size() + 1;
+        if (!is_space(text[at - 1]) || quote >= end) continue;
+        const std::size_t close = text.find(text[quote], quote + 1);
+        return close < end ? text.substr(quote + 1, close - quote - 1) : std::string();
+    }
+    return {};
+}
+
+/// The geometry behind each skin or morph, by the controller's id; both with "#" before them.
+std::map<std::string, std::string> geometry_by_controller(const std::string& text) {
+    std::map<std::string, std::string> sources;
+    const std::string open = "<controller";
+    for (std::size_t at = 0; (at = text.find(open, at)) != std::string::npos; at += open.size()) {
+        const std::size_t end = text.find("</controller>", at);
+        const std::size_t body = std::min(text.find("<skin", at), text.find("<morph", at));
+        const std::string id = attribute_of(text, at, "id");
+        if (!id.empty() && body < end) sources["#" + id] = attribute_of(text, body, "source");
+    }
+    for (auto& [id, source] : sources)  // a skin of a morph
+        for (std::size_t step = 0; step < sources.size() && sources.contains(source); ++step)
+            source = sources.at(source);
+    return sources;
+}
+
 }  // namespace
 
+std::string collada_without_skins(const std::string& text) {
+    const auto sources = geometry_by_controller(text);
+    if (sources.empty()) return {};
+    std::string result = without(text, "library_controllers");
+    const std::string open = "<instance_controller", close = "</instance_controller>";
+    for (std::size_t at = 0; (at = result.find(open, at)) != std::string::npos;) {
+        const auto found = sources.find(attribute_of(result, at, "url"));
+        const std::size_t end = result.find('>', at);
+        if (end == std::string::npos) break;
+        const std::string geometry =
+            "<instance_geometry url=\"" + (found == sources.end() ? "#" : found->second) + "\"";
+        result.replace(at, end - at - (result[end - 1] == '/' ? 1 : 0), geometry);
+        at += geometry.size();
+    }
+    for (std::size_t at = 0; (at = result.find(close, at)) != std::string::npos;)
+        result.replace(at, close.size(), "</instance_geometry>");
+    return result;
+}
+
 std::string repaired_collada(const std::string& text) {
-    std::string result = without_leading_space(text);
+    std::string result = without_leading_space(without_comments(text));
     for (const char* element : {"texture", "library_images", "library_animations", "library_controllers"})
         result = without(std::move(result), element);
     return result;

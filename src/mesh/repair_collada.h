@@ -5,8 +5,12 @@
 
 namespace roboss {
 
-/// The text without white space before the first number of an element, and without references to pictures:
+/// The text without comments, white space before the first number of an element, and references to pictures:
 /// what is drawn over such a mesh is lost, its triangles are not.
 std::string repaired_collada(const std::string& text);
+
+/// The same file with the meshes of its skins and morphs as plain geometry, and without their weights; empty:
+/// it has none. assimp 5.2 ends the program over weights that are not there.
+std::string collada_without_skins(const std::string& text);
 
 }  // namespace roboss

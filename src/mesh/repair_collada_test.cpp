@@ -17,6 +17,25 @@ TEST(RepairCollada, PicturesAreTakenOutWhole) {
     EXPECT_EQ(repaired_collada("<textures>1</textures>"), "<textures>1</textures>");
 }
 
+TEST(RepairCollada, CommentsAreTakenOut) {
+    EXPECT_EQ(repaired_collada("<v><!-- <i/> --><j/><!----></v><!-- open"), "<v><j/></v><!-- open");
+}
+
+TEST(RepairCollada, SkinsAndMorphsBecomeTheirGeometry) {
+    const std::string library =
+        "<library_controllers><controller name='s' id='skin'><skin source='#morph'/></controller>"
+        "<controller id=\"morph\"><morph method='NORMALIZED' "
+        "source='#shape'/></controller></library_controllers>";
+    EXPECT_EQ(
+        collada_without_skins(library + "<node><instance_controller url='#skin'><x/></instance_controller>"
+                                        "<instance_controller url='#none'/></node>"),
+        "<node><instance_geometry url=\"#shape\"><x/></instance_geometry>"
+        "<instance_geometry url=\"#\"/></node>");
+    EXPECT_EQ(collada_without_skins("<node><instance_geometry url='#shape'/></node>"), "");
+    for (std::size_t length = 0; length <= library.size(); ++length)
+        EXPECT_LE(collada_without_skins(library.substr(0, length)).size(), length);
+}
+
 TEST(RepairCollada, TextThatIsCutShortDoesNoHarm) {
     const std::string whole = "<library_images><image/></library_images><p> 1 2</p><texture/>";
     for (std::size_t length = 0; length <= whole.size(); ++length)

@@ -1,5 +1,7 @@
 // An actuator's force law in the joint's own coordinate: kp and kv times gear^2, bounds times gear. Several
-// actuators of a joint add up, as a position and a velocity servo often do.
+// actuators of a joint add up, as a position and a velocity servo often do. An actuator of a fixed tendon,
+// whose length is a sum of coefficients times joint positions, drives a joint if an equality ties all of them
+// to it, as in grippers: with q_i = r_i q + const the length is (sum c_i r_i) q + const.
 #include "mjcf/actuators.h"
 
 #include <algorithm>
@@ -32,10 +34,59 @@ class ActuatorReader {
         AxisSpec* axis = nullptr;
     };
 
+    /// The joint that a fixed tendon amounts to, and the tendon's length for each of its radians or metres.
+    struct Transmission {
+        Tree::JointPlace place;
+        JointSpec* joint = nullptr;
+        double gear = 0;
+    };
+
+    std::optional<Transmission> joint_behind(const std::string& tendon) {
+        for (const Element& fixed : r_.document.in_sections("tendon"))
+            if (std::string(fixed.node.name()) == "fixed" && fixed.name() == tendon)
+                return joint_behind(fixed);
+        return std::nullopt;
+    }
+
+    std::optional<Transmission> joint_behind(const Element& fixed) {
+        std::vector<Transmission> parts;
+        for (const Element& part : r_.document.children(fixed, "joint")) {
+            const Attributes source({part}, r_.diagnostics);
+            const auto place = robots_.tree().find_joint(source.text("joint"));
+            JointSpec* const joint = place ? robots_.joint_of(*place) : nullptr;
+            if (joint == nullptr || joint->axes.size() != 1) return std::nullopt;
+            if (!parts.empty() && !robots_.same_model(place->body, parts.front().place.body))
+                return std::nullopt;
+            parts.push_back({*place, joint, source.number("coef", 1)});
+        }
+        const auto leads = [](const Transmission& part) { return !part.joint->axes.front().mimic; };
+        const auto leader = std::ranges::find_if(parts, leads);
+        if (leader == parts.end()) return std::nullopt;
+        double gear = 0;
+        for (const Transmission& part : parts) {
+            const auto& mimic = part.joint->axes.front().mimic;
+            if ((mimic ? mimic->joint : part.joint->name) != leader->joint->name) return std::nullopt;
+            gear += part.gear * (mimic ? mimic->multiplier : 1);
+        }
+        if (gear == 0) return std::nullopt;
+        return Transmission{leader->place, leader->joint, gear};
+    }
+
     std::optional<Driven> read_one(const Element& element) {
         const Attributes source({element}, r_.diagnostics);
+        if (element.node.attribute("tendon")) {
+            const auto found = joint_behind(source.text("tendon"));
+            if (!found)
+                return no_effect(
+                    source, "an actuator of a tendon that is not fixed, or whose joints no equality ties",
+                    "Drive the joints themselves.");
+            auto drive = drive_of(element, source);
+            if (!drive) return std::nullopt;
+            drive->gear *= found->gear;
+            return Driven{source, *drive, found->place, found->joint->axes.data()};
+        }
         if (!element.node.attribute("joint") && !element.node.attribute("jointinparent"))
-            return no_effect(source, "an actuator that drives no joint (but a tendon, site, body or crank)",
+            return no_effect(source, "an actuator that drives no joint (but a site, body or crank)",
                              "Drive the joints themselves.");
         const std::string name = source.text("joint", source.text("jointinparent"));
         const auto place = robots_.tree().find_joint(name);
@@ -48,6 +99,12 @@ class ActuatorReader {
         JointSpec* joint = robots_.joint_of(*place);
         if (joint == nullptr || joint->axes.empty())
             return no_effect(source, "an actuator of a ball or free joint", "Write several hinges instead.");
+        const auto drive = drive_of(element, source);
+        if (!drive) return std::nullopt;
+        return Driven{source, *drive, *place, joint->axes.data()};
+    }
+
+    std::optional<Drive> drive_of(const Element& element, const Attributes& source) const {
         Drive drive;
         for (const Element& set : r_.defaults.actuator_defaults(element))
             drive.apply({{set}, r_.diagnostics});
@@ -57,7 +114,7 @@ class ActuatorReader {
             (drive.bias_type != "none" && drive.bias_type != "affine"))
             return no_effect(source, "an actuator that is no motor, position, velocity or affine general one",
                              "Use one of these.");
-        return Driven{source, drive, *place, joint->axes.data()};
+        return drive;
     }
 
     std::nullopt_t no_effect(const Attributes& source, const std::string& what,

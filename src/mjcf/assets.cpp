@@ -8,6 +8,7 @@
 #include "core/similar.h"
 #include "mesh/mesh_file.h"
 #include "mesh/msh_file.h"
+#include "mesh/obj_points.h"
 #include "mjcf/orientation.h"
 
 namespace roboss::mjcf {
@@ -63,6 +64,13 @@ void report_unknown(const char* what, const std::string& name, const std::vector
                             "<" + std::string(user.element().node.name()) + "> names the " + what + " '" +
                                 name + "', which the file does not have",
                             did_you_mean(name, names, "Add it to <asset>.")});
+}
+
+/// Whether the file's name ends so, in letters of either case.
+bool has_ending(const std::string& path, std::string_view ending) {
+    std::string found = fs::path(path).extension().string();
+    for (char& c : found) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    return found == ending;
 }
 
 /// The vertices and faces that the element itself holds.
@@ -146,7 +154,7 @@ std::optional<MeshSpec> Assets::triangles_of(const Attributes& source, Diagnosti
     }
     const auto path = find_file(file, source, problem);
     if (!path) return std::nullopt;
-    if (fs::path(*path).extension() == ".msh") {
+    if (has_ending(*path, ".msh")) {
         Result<MeshSpec> read = read_msh(*path);
         if (read) return std::move(read).value();
         problem.message = "the mesh '" + *path + "' " + read.error().message;
@@ -157,6 +165,8 @@ std::optional<MeshSpec> Assets::triangles_of(const Attributes& source, Diagnosti
     request.path = *path;
     Result<MeshFile> read = read_mesh(request);
     if (read) return std::move(read.value().mesh);
+    if (has_ending(*path, ".obj"))
+        if (Result<MeshSpec> points = read_obj_points(*path)) return std::move(points).value();
     problem.message = "the mesh '" + *path + "' " + read.error().message;
     problem.remedy = read.error().remedy;
     return std::nullopt;

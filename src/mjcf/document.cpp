@@ -1,7 +1,8 @@
 // An <include> leads first to the folder of the main file, then to that of the file it stands in, as in
-// MuJoCo.
+// MuJoCo. A file may be included once by each of its names, as in MuJoCo: links serve as copies.
 #include "mjcf/document.h"
 
+#include <algorithm>
 #include <cstring>
 #include <filesystem>
 
@@ -14,11 +15,17 @@ bool is_include(const pugi::xml_node& node) {
     return std::strcmp(node.name(), "include") == 0;
 }
 
+std::string links_resolved(const fs::path& path) {
+    std::error_code ignored;
+    return fs::weakly_canonical(path, ignored).string();
+}
+
 }  // namespace
 
 Document::Document(std::unique_ptr<SourceFile> main, Diagnostics& diagnostics) : main_(std::move(main)) {
-    std::error_code ignored;
-    paths_.insert(fs::weakly_canonical(main_->path(), ignored).string());
+    const std::string path = fs::path(main_->path()).lexically_normal().string();
+    paths_.insert(path);
+    open_.push_back(links_resolved(path));
     read_includes(root(), diagnostics);
 }
 
@@ -50,8 +57,11 @@ void Document::read_include(const Element& include, Diagnostics& diagnostics) {
                           "Write its path from the folder of the main file on.");
         return;
     }
-    if (!paths_.insert(fs::weakly_canonical(path, error).string()).second) {
-        diagnostics.error(include.where(), "include-twice", "the file '" + name + "' is included twice",
+    const std::string file_itself = links_resolved(path);
+    const bool in_itself = std::ranges::find(open_, file_itself) != open_.end();
+    if (in_itself || !paths_.insert(path.lexically_normal().string()).second) {
+        diagnostics.error(include.where(), "include-twice",
+                          "the file '" + name + (in_itself ? "' includes itself" : "' is included twice"),
                           "Include each file once; use <replicate> or <attach> for copies.");
         return;
     }
@@ -59,7 +69,9 @@ void Document::read_include(const Element& include, Diagnostics& diagnostics) {
     if (!file) return;
     const Element inner{file.get(), file->root()};
     included_[include.node.internal_object()] = std::move(file);
+    open_.push_back(file_itself);
     read_includes(inner, diagnostics);
+    open_.pop_back();
 }
 
 std::vector<Element> Document::children(const Element& parent) const {

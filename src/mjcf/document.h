@@ -40,7 +40,8 @@ class Document {
 
     std::unique_ptr<SourceFile> main_;
     std::map<const void*, std::unique_ptr<SourceFile>> included_;  // by the node of the <include>
-    std::set<std::string> paths_;                                  // of all files
+    std::set<std::string> paths_;                                  // of all files, as they are named
+    std::vector<std::string> open_;                                // files being read, links resolved
 };
 
 }  // namespace roboss::mjcf

@@ -2,6 +2,10 @@
 #include "mjcf/load_mjcf.h"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
 
 #include "mjcf/test_files.h"
 #include "world/joint_type.h"
@@ -75,6 +79,54 @@ TEST(LoadMjcf, SizesAreHalfLengths) {
     EXPECT_DOUBLE_EQ(link.collisions[1].X_LS.p.z, .2);
 }
 
+TEST(LoadMjcf, AnObjFileWithoutFacesIsTheConvexHullOfItsPoints) {
+    const std::string path =
+        (std::filesystem::temp_directory_path() / ("roboss-points-" + std::to_string(getpid()) + ".obj"))
+            .string();
+    std::ofstream(path) << "v 0 0 0\nv 2 0 0\nv 0 2 0\nv 0 0 2\nv .1 .1 .1\nvn 0 0 1\n";
+    const Loaded loaded =
+        load_bodies("<body name='b'><freejoint/><geom type='mesh' mesh='m' density='300'/></body>",
+                    "<asset><mesh name='m' file='" + path + "'/></asset>");
+    std::filesystem::remove(path);
+    ASSERT_TRUE(loaded.world) << loaded.text();
+    EXPECT_NEAR(loaded.model("b")->links[0].mass, 300 * 8.0 / 6, 1e-6);
+}
+
+TEST(LoadMjcf, AFileIsIncludedOnceByEachOfItsNamesAndNeverInItself) {
+    namespace fs = std::filesystem;
+    const fs::path folder = fs::temp_directory_path() / ("roboss-include-" + std::to_string(getpid()));
+    fs::create_directory(folder);
+    std::ofstream(folder / "part.xml") << "<mujocoinclude><geom size='.1'/></mujocoinclude>";
+    fs::create_symlink("part.xml", folder / "again.xml");
+    std::ofstream(folder / "cycle.xml") << "<mujocoinclude><include file='ring.xml'/></mujocoinclude>";
+    fs::create_symlink("cycle.xml", folder / "ring.xml");
+    const auto load = [&](const std::string& first, const std::string& second) {
+        return load_text("<mujoco><worldbody><body><freejoint/><include file='" + first +
+                             "'/><include file='" + second + "'/></body></worldbody></mujoco>",
+                         folder / "robot.xml");
+    };
+    const Loaded linked = load("part.xml", "again.xml"), twice = load("part.xml", "./part.xml"),
+                 ring = load("part.xml", "cycle.xml");
+    fs::remove_all(folder);
+    ASSERT_TRUE(linked.world) << linked.text();
+    EXPECT_EQ(linked.world->prototypes[0].links[0].collisions.size(), 2u);
+    EXPECT_NE(twice.find("include-twice"), nullptr) << twice.text();
+    EXPECT_NE(ring.find("include-twice"), nullptr) << ring.text();
+}
+
+TEST(LoadMjcf, AnEndTagTooManyAtTheEndIsAWarningAndOneTooFewAnError) {
+    const std::string file =
+        "<mujoco><worldbody><body><freejoint/><geom size='.1'/></body></worldbody></mujoco>\n";
+    const Loaded loaded = load_text(file + "</mujoco> </mujoco>\n");
+    ASSERT_TRUE(loaded.world) << loaded.text();
+    ASSERT_NE(loaded.find("stray-end-tag"), nullptr);
+    EXPECT_EQ(loaded.find("stray-end-tag")->where.line, 2);
+    EXPECT_EQ(loaded.world->prototypes.size(), 1u);
+    for (const char* text : {"<mujoco><worldbody><mujoco></mujoco></mujoco>",
+                             "<mujoco></mujoco></mujoco><a/>", "<mujoco><a></b></mujoco>", "</mujoco>"})
+        EXPECT_NE(load_text(text).find("malformed-xml"), nullptr) << text;
+}
+
 TEST(LoadMjcf, ClassesReachElementsThroughChildclass) {
     const Loaded loaded = load_bodies(
         "<body name='b' childclass='c'><joint name='j'/><geom size='.1'/><geom class='main' "
@@ -117,6 +169,28 @@ TEST(LoadMjcf, ActuatorsBecomeGainsAndBoundsOfTheJoint) {
     EXPECT_DOUBLE_EQ(servo.max_effort, 15);
     EXPECT_DOUBLE_EQ(motor.position_gain, 0);
     EXPECT_DOUBLE_EQ(motor.max_effort, 50);
+}
+
+TEST(LoadMjcf, AnActuatorOfAFixedTendonDrivesTheJointThatAnEqualityTiesTheOthersTo) {
+    const auto load = [](const std::string& equality) {
+        return load_bodies(
+            "<body name='b'><geom size='.1'/><body><joint name='l' type='slide'/><geom size='.1'/></body>"
+            "<body><joint name='r' type='slide'/><geom size='.1'/></body></body>",
+            "<tendon><fixed name='both'><joint joint='r' coef='.5'/><joint joint='l' "
+            "coef='.25'/></fixed></tendon>" +
+                equality + "<actuator><position tendon='both' kp='100' forcerange='-40 40'/></actuator>");
+    };
+    const Loaded tied = load("<equality><joint joint1='r' joint2='l' polycoef='0 3 0 0 0'/></equality>");
+    ASSERT_TRUE(tied.world) << tied.text();
+    EXPECT_EQ(tied.find("ignored-actuator"), nullptr) << tied.text();
+    const ModelSpec& model = *tied.model("b");
+    const AxisSpec &leader = model.joints[1].axes[0], &follower = model.joints[2].axes[0];
+    ASSERT_EQ(model.joints[1].name, "l");
+    constexpr double kGear = .25 + 3 * .5;
+    EXPECT_DOUBLE_EQ(leader.position_gain, 100 * kGear * kGear);
+    EXPECT_DOUBLE_EQ(leader.max_effort, 40 * kGear);
+    EXPECT_EQ(follower.position_gain, 0);
+    EXPECT_NE(load("").find("ignored-actuator"), nullptr) << "two joints, each free";
 }
 
 TEST(LoadMjcf, DampingRatiosCountTheInertiaThatTheJointMoves) {
@@ -258,7 +332,7 @@ TEST(LoadMjcf, WhatHasNoEffectIsTold) {
     const Loaded loaded = load_bodies(
         "<body name='b'><joint name='j' springdamper='1 1' stifness='2'/><geom size='.1' solref='.1 1'/>"
         "<bodi/></body>",
-        "<tendon><fixed name='t'><joint joint='j' coef='1'/></fixed></tendon>"
+        "<tendon><spatial name='t'><site site='a'/><site site='b'/></spatial></tendon>"
         "<actuator><motor tendon='t'/></actuator><option viscosity='1'/>");
     ASSERT_TRUE(loaded.world) << loaded.text();
     EXPECT_NE(loaded.find("unknown-attribute"), nullptr);

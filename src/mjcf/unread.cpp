@@ -128,7 +128,9 @@ constexpr LeftOut kLeftOut[] = {
     {"extension", kWarning, "plugins of MuJoCo are not run"},
     {"plugin", kWarning, "plugins of MuJoCo are not run"},
     {"deformable", kWarning, "bodies are rigid"},
-    {"tendon", kWarning, "tendons, their springs and their limits are not simulated"},
+    {"tendon", kWarning,
+     "tendons, their springs and their limits are not simulated, but an actuator may drive a joint by a "
+     "fixed one"},
     {"lengthrange", kNote, "it is for muscles"},
     {"model", kNote, "models are not attached"},
     {"muscle", kWarning, "muscles are not simulated"},

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "math/solid.h"
+#include "mjcf/mesh_solid.h"
 
 namespace roboss::sdf_import {
 namespace {
@@ -58,12 +59,23 @@ bool is_closed(const MeshSpec& mesh) {
     return std::all_of(edges.begin(), edges.end(), [](const auto& edge) { return edge.second == 0; });
 }
 
-std::optional<Solid> mesh_solid(const MeshSpec& mesh) {
+std::optional<Solid> closed_solid(const MeshSpec& mesh) {
     if (!is_closed(mesh)) return std::nullopt;
     SolidSum sum;
     for (const auto& t : mesh.triangles)
         sum.add(mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]);
     return sum.solid();
+}
+
+/// A mesh with holes, or inside out, has the volume of its convex hull, as which it collides.
+std::optional<Solid> mesh_solid(const MeshSpec& mesh, const Element& geometry, const Import& import) {
+    if (const auto solid = closed_solid(mesh)) return solid;
+    import.diagnostics().note(
+        geometry.where(), "automatic-inertia",
+        "the mesh '" + mesh.source +
+            "' has holes, or is inside out; the automatic inertia is that of its convex hull");
+    const auto hull = mjcf::hull_of(mesh);
+    return hull ? closed_solid(*hull) : std::nullopt;
 }
 
 /// Triangles of a fan need not lie inside a polygon: their signed sum is right all the same.
@@ -101,7 +113,7 @@ std::optional<Solid> solid_of(const Element& geometry, const Import& import) {
         case GeometryKind::kCone:
             return solid_cone(spec->radius, spec->length);
         case GeometryKind::kMesh:
-            return spec->mesh ? mesh_solid(*spec->mesh) : std::nullopt;
+            return spec->mesh ? mesh_solid(*spec->mesh, geometry, import) : std::nullopt;
         case GeometryKind::kPolyline:
             return prism(spec->outline, spec->length);
         default:
@@ -128,8 +140,7 @@ std::vector<Placed> solids_of(const Element& link, const PoseInLink& pose_of, co
             import.diagnostics().warning(
                 collision.where(), "automatic-inertia",
                 "collision '" + collision.name() + "' adds nothing to the automatic inertia of its link",
-                "Write the link's <mass> and <inertia>, or use a shape with a volume (a mesh must be "
-                "closed).");
+                "Write the link's <mass> and <inertia>, or use a shape with a volume.");
         }
     }
     return solids;

@@ -6,11 +6,15 @@
 #include <span>
 
 namespace roboss::sdf_import {
-/// libsdformat takes the number at the start of a word and leaves the rest.
+/// libsdformat takes the number at the start of a word and leaves the rest: a quotation mark, a unit, a
+/// second point
+/// ("2.286.0"). A comma is no rest: it may stand for a point.
 std::optional<double> number_at_start(std::string_view text) {
     while (!text.empty() && !std::isdigit(static_cast<unsigned char>(text.back())) && text.back() != '.')
         text.remove_suffix(1);
-    return parse_number(text);
+    const std::size_t point = text.find('.');
+    const std::size_t second = point == text.npos ? point : text.find('.', point + 1);
+    return parse_number(text.substr(0, second));
 }
 
 void ElementReader::report_rest(const Element& element, std::string_view word) const {

@@ -201,6 +201,16 @@ TEST(ForeignFiles, TextBehindANumberIsIgnoredWithAWarning) {
     EXPECT_EQ(loaded.world->prototypes[0].joints[0].axes[0].max_velocity, 2.5);
 }
 
+TEST(ForeignFiles, ASecondPointInANumberOfAPoseEndsIt) {
+    const Loaded loaded =
+        load_elements("<model name='m'><pose>0 0 2.286.0 0 0 0</pose>" + link("a") + "</model>");
+    EXPECT_FALSE(loaded.diagnostics.has_errors()) << loaded.text();
+    EXPECT_NE(loaded.find("trailing-text"), nullptr);
+    EXPECT_EQ(loaded.world->instances[0].X_WM.p.z, 2.286);
+    EXPECT_TRUE(load_elements("<model name='m'><pose>0 0 2,286 0 0 0</pose>" + link("a") + "</model>")
+                    .diagnostics.has_errors());
+}
+
 TEST(ForeignFiles, OfSeveralNumbersWhereOneBelongsTheFirstCounts) {
     const Loaded loaded = load_elements("<model name='m'>" +
                                         link("a",

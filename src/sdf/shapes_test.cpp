@@ -171,12 +171,13 @@ TEST(SdfShapes, AutomaticInertiaFollowsCollisionsPlacedInOtherFrames) {
             EXPECT_NEAR(there.inertia_C(i, j), plain.inertia_C(i, j), 1e-9) << i << " " << j;
 }
 
-TEST(SdfShapes, AnOpenMeshHasNoAutomaticInertia) {
+TEST(SdfShapes, AutomaticInertiaOfAMeshWithAHoleIsThatOfItsHull) {
     const TestFolder folder;
     folder.write("open.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\n");
     const Loaded loaded = load(folder, "<mesh><uri>open.obj</uri></mesh>", "", kAutomatic);
     ASSERT_NE(loaded.find("automatic-inertia"), nullptr);
-    EXPECT_EQ(loaded.find("automatic-inertia")->severity, Severity::kWarning);
+    EXPECT_NEAR(loaded.world->prototypes[0].links[0].mass, 100.0 / 6, 1e-3);
+    EXPECT_NEAR(loaded.world->prototypes[0].links[0].p_LC.x, 0.25, 1e-6);
 }
 
 }  // namespace

@@ -11,6 +11,7 @@
 #include <string_view>
 
 #include "sdf/console_capture.h"
+#include "sdf/urdf_control.h"
 #include "sdf/urdf_repairs.h"
 
 namespace roboss::sdf_import {
@@ -64,6 +65,16 @@ void add_joint_types(const std::map<std::string, std::string>& types, std::strin
     }
 }
 
+/// Gives the joints the positions that they start at, on the same line.
+void add_initial_positions(const std::map<std::string, std::string>& positions, std::string& sdf) {
+    for (const auto& [joint, position] : positions) {
+        const std::size_t at = sdf.find("<joint name='" + joint + "'");
+        const std::size_t axis = at == std::string::npos ? at : sdf.find("<axis>", at);
+        if (axis == std::string::npos || axis > sdf.find("</joint>", at)) continue;
+        sdf.insert(axis + 6, "<initial_position>" + position + "</initial_position>");
+    }
+}
+
 /// Gives the cameras their own <horizontal_fov> back, on the same line.
 void add_views(const std::map<std::string, std::string>& views, std::string& sdf) {
     const std::string begin = "<horizontal_fov>", end = "</horizontal_fov>";
@@ -73,6 +84,16 @@ void add_views(const std::map<std::string, std::string>& views, std::string& sdf
         if (from == std::string::npos || from > sdf.find("</sensor>", at)) continue;
         const std::size_t text = from + begin.size();
         sdf.replace(text, sdf.find(end, text) - text, view);
+    }
+}
+
+/// Each <inertial> becomes one that is computed from the link's collisions, those merged into it included.
+void make_inertials_automatic(std::string& sdf) {
+    const std::string begin = "<inertial>", end = "</inertial>", automatic = "<inertial auto='true'/>";
+    for (std::size_t at = 0; (at = sdf.find(begin, at)) != std::string::npos; at += automatic.size()) {
+        const std::size_t to = sdf.find(end, at);
+        if (to == std::string::npos) return;
+        sdf.replace(at, to + end.size() - at, automatic);
     }
 }
 
@@ -266,7 +287,9 @@ std::unique_ptr<SourceFile> urdf_to_sdf(const SourceFile& urdf, Diagnostics& dia
     repaired.append_copy(urdf.root());
     const pugi::xml_node robot = repaired.document_element();
     repair_urdf(robot, urdf, diagnostics);
+    const bool masses_follow = stand_in_for_masses(robot, urdf, diagnostics);
     report_transmissions(urdf, diagnostics);
+    const auto positions = read_ros2_control(robot, urdf, diagnostics);
     const auto joint_types = replace_joint_types(robot, urdf, diagnostics);
     const auto views = replace_narrow_views(robot);
     sdf::Errors errors;
@@ -304,7 +327,9 @@ std::unique_ptr<SourceFile> urdf_to_sdf(const SourceFile& urdf, Diagnostics& dia
     }
     add_merged_links(robot, text);
     if (!report_lost_links(urdf, robot, text, diagnostics)) return nullptr;
+    if (masses_follow) make_inertials_automatic(text);
     add_mimics(robot, text);
+    add_initial_positions(positions, text);
     add_joint_types(joint_types, text);
     add_views(views, text);
     std::vector<int> lines = map_lines(urdf, robot, text);

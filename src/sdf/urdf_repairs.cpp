@@ -3,6 +3,7 @@
 #include "sdf/urdf_repairs.h"
 
 #include <algorithm>
+#include <filesystem>
 #include <map>
 #include <optional>
 #include <set>
@@ -35,12 +36,19 @@ void mend_number(pugi::xml_attribute attribute, const SourceLocation& where, Dia
 void mend_inertial(pugi::xml_node inertial, const SourceLocation& where, Diagnostics& diagnostics) {
     for (const auto child : {inertial.child("mass"), inertial.child("inertia")})
         for (const auto attribute : child.attributes()) mend_number(attribute, where, diagnostics);
-    if (!inertial.child("mass") || inertial.child("inertia")) return;
-    auto inertia = inertial.append_child("inertia");
-    for (const char* moment : {"ixx", "ixy", "ixz", "iyy", "iyz", "izz"})
+    if (!inertial.child("mass")) return;
+    auto inertia = inertial.child("inertia");
+    if (!inertia) inertia = inertial.append_child("inertia");
+    std::string missing;
+    for (const char* moment : {"ixx", "ixy", "ixz", "iyy", "iyz", "izz"}) {
+        if (inertia.attribute(moment)) continue;
         inertia.append_attribute(moment) = "0";
+        missing += (missing.empty() ? "" : ", ") + std::string(moment);
+    }
+    if (missing.empty()) return;
     diagnostics.warning(where, "missing-inertia",
-                        "an <inertial> has no <inertia>; its moments are taken as 0", "Write its moments.");
+                        "of an <inertial> are missing " + missing + "; they are taken as 0",
+                        "Write its moments.");
 }
 
 void mend_inertials(pugi::xml_node robot, const SourceFile& urdf, Diagnostics& diagnostics) {
@@ -72,6 +80,17 @@ void mend_version(pugi::xml_node robot, const SourceFile& urdf, Diagnostics& dia
                         "version=\"" + std::string(version.value()) + "\" of <robot> is read as 1.0",
                         "Write version=\"1.0\", or none.");
     robot.remove_attribute("version");
+}
+
+/// urdfdom refuses a robot without a name.
+void mend_name(pugi::xml_node robot, const SourceFile& urdf, Diagnostics& diagnostics) {
+    if (robot.attribute("name").value()[0] != 0) return;
+    std::string name = std::filesystem::path(urdf.path()).stem().string();
+    if (name.empty()) name = "robot";
+    robot.remove_attribute("name");
+    robot.append_attribute("name") = name.c_str();
+    diagnostics.warning(urdf.where(urdf.root()), "unnamed-robot",
+                        "<robot> has no name; it gets that of its file: '" + name + "'", "Write its name.");
 }
 
 void rename_joints(pugi::xml_node robot, const SourceFile& urdf, Diagnostics& diagnostics) {
@@ -149,6 +168,19 @@ bool has_mass(pugi::xml_node link) {
     return mass && parse_number(mass.value()) != 0.0;
 }
 
+bool is_world(pugi::xml_node link) {
+    return std::string_view(link.attribute("name").value()) == "world";
+}
+
+void give_unit_inertial(pugi::xml_node link) {
+    link.remove_child("inertial");
+    auto inertial = link.append_child("inertial");
+    inertial.append_child("mass").append_attribute("value") = 1;
+    auto inertia = inertial.append_child("inertia");
+    for (const char* moment : {"ixx", "iyy", "izz"}) inertia.append_attribute(moment) = 1;
+    for (const char* product : {"ixy", "ixz", "iyz"}) inertia.append_attribute(product) = 0;
+}
+
 /// Without a mass anywhere nothing moves: a table, a plane. PyBullet has them as scenery.
 void make_scenery(pugi::xml_node robot, const SourceFile& urdf, Diagnostics& diagnostics) {
     const auto links = robot.children("link"), joints = robot.children("joint");
@@ -156,15 +188,8 @@ void make_scenery(pugi::xml_node robot, const SourceFile& urdf, Diagnostics& dia
         std::any_of(links.begin(), links.end(), has_mass) ||
         std::none_of(links.begin(), links.end(), is_visible))
         return;
-    for (auto link : links) {
-        if (std::string_view(link.attribute("name").value()) == "world") continue;
-        link.remove_child("inertial");
-        auto inertial = link.append_child("inertial");
-        inertial.append_child("mass").append_attribute("value") = 1;
-        auto inertia = inertial.append_child("inertia");
-        for (const char* moment : {"ixx", "iyy", "izz"}) inertia.append_attribute(moment) = 1;
-        for (const char* product : {"ixy", "ixz", "iyz"}) inertia.append_attribute(product) = 0;
-    }
+    for (auto link : links)
+        if (!is_world(link)) give_unit_inertial(link);
     robot.append_child("gazebo").append_child("static").text() = "true";
     diagnostics.warning(urdf.where(urdf.root().child("link")), "no-inertial",
                         "no link has mass, and no joint moves: the model stands still, as scenery",
@@ -175,11 +200,26 @@ void make_scenery(pugi::xml_node robot, const SourceFile& urdf, Diagnostics& dia
 
 void repair_urdf(pugi::xml_node robot, const SourceFile& urdf, Diagnostics& diagnostics) {
     mend_version(robot, urdf, diagnostics);
+    mend_name(robot, urdf, diagnostics);
     make_scenery(robot, urdf, diagnostics);
     mend_inertials(robot, urdf, diagnostics);
     drop_empty_inertials(robot);
     rename_scoped(robot, urdf, diagnostics);
     rename_joints(robot, urdf, diagnostics);
+}
+
+bool stand_in_for_masses(pugi::xml_node robot, const SourceFile& urdf, Diagnostics& diagnostics) {
+    const auto links = robot.children("link"), joints = robot.children("joint");
+    if (std::none_of(joints.begin(), joints.end(), moves) ||
+        std::any_of(links.begin(), links.end(), has_mass) ||
+        std::none_of(links.begin(), links.end(), is_visible))
+        return false;
+    for (const auto link : links)
+        if (!is_world(link)) give_unit_inertial(link);
+    diagnostics.warning(urdf.where(urdf.root().child("link")), "no-inertial",
+                        "no link has mass: masses follow from the collisions, at 1000 kg/m^3 as in MuJoCo",
+                        "Give each link an <inertial> with <mass> and <inertia>.");
+    return true;
 }
 
 std::map<std::string, std::string> replace_joint_types(pugi::xml_node robot, const SourceFile& urdf,

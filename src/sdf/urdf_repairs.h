@@ -4,7 +4,6 @@
 
 #include <map>
 #include <string>
-#include "xml/source_file.h"
 
 #include "core/diagnostics.h"
 #include "sdf/source_file.h"
@@ -13,11 +12,17 @@ namespace roboss::sdf_import {
 
 /// In a copy of the <robot> of `urdf`, each with a warning:
 /// - numbers of an <inertial> with white space or text behind them become those numbers;
-/// - an inertial with a mass but without moments gets moments of 0, which compile() mends;
+/// - an inertial with a mass but without all moments gets moments of 0, which compile() mends;
 /// - a joint with the name of a link gets "_joint" behind it: SDFormat has one set of names for both;
 /// - "::" in names becomes "__": SDFormat keeps it for nested models;
-/// - a robot without mass and without a joint that moves becomes a static model.
+/// - a robot without mass and without a joint that moves becomes a static model;
+/// - a robot without a name gets that of its file.
 void repair_urdf(pugi::xml_node robot, const SourceFile& urdf, Diagnostics& diagnostics);
+
+/// True, and a warning, for a robot that has joints that move, collisions, and no mass anywhere: its masses
+/// are to follow from the collisions, as in MuJoCo. In `robot` each link gets an inertial that stands for
+/// them, so that libsdformat keeps the link.
+bool stand_in_for_masses(pugi::xml_node robot, const SourceFile& urdf, Diagnostics& diagnostics);
 
 /// Joints whose type SDFormat lacks (<roboss:joint>), by name. libsdformat would leave them out: in `robot`
 /// they become continuous ones with the same axis.

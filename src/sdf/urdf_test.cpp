@@ -88,6 +88,82 @@ TEST(Urdf, ThatIsBrokenIsAnErrorAtTheLink) {
     EXPECT_TRUE(load_text("<robot name='r'/>", "r.urdf").diagnostics.has_errors());
 }
 
+TEST(Urdf, MomentsThatAreMissingAreZero) {
+    std::string arm = kArm;
+    const std::string products = " ixy='0' ixz='0' iyz='0'/>";
+    arm.erase(arm.find(products), products.size() - 2);
+    const Loaded loaded = load_text(arm, "arm.urdf");
+    EXPECT_FALSE(loaded.diagnostics.has_errors()) << loaded.text();
+    ASSERT_NE(loaded.find("missing-inertia"), nullptr);
+    EXPECT_EQ(loaded.find("missing-inertia")->where.line, 4);
+    EXPECT_EQ(loaded.model("arm")->links[0].inertia_C(0, 0), 0.1);
+}
+
+TEST(Urdf, WithoutAnyMassButWithJointsThatMoveHasMassesOfItsCollisions) {
+    const std::string axis = "<axis xyz='0 1 0'/></joint>";
+    const Loaded loaded = load_text(
+        "<robot>\n<link name='base'><collision><geometry><box size='1 1 .1'/></geometry></collision></link>\n"
+        "<link name='arm'><inertial><mass value='0'/></inertial></link>\n"
+        "<link name='cover'><collision><geometry><box size='.1 .1 1'/></geometry></collision></link>\n"
+        "<link name='wire'/>\n"
+        "<joint name='j' type='continuous'><parent link='base'/><child link='arm'/>" +
+            axis +
+            "<joint name='f' type='fixed'><origin xyz='0 0 .5'/><parent link='arm'/><child "
+            "link='cover'/></joint>" +
+            "<joint name='k' type='continuous'><parent link='arm'/><child link='wire'/>" + axis + "</robot>",
+        "folder/bare.urdf");
+    ASSERT_TRUE(loaded.world) << loaded.text();
+    EXPECT_EQ(loaded.world->prototypes.size(), 1u);
+    const ModelSpec* model = loaded.model("bare");
+    ASSERT_NE(model, nullptr) << loaded.text();
+    ASSERT_EQ(model->links.size(), 3u);
+    EXPECT_NEAR(model->links[0].mass, 100, 1e-9);
+    EXPECT_NEAR(model->links[1].mass, 10, 1e-9);
+    EXPECT_NEAR(model->links[1].p_LC.z, 0.5, 1e-9);
+    EXPECT_NEAR(model->links[1].inertia_C(0, 0), 10 * 1.01 / 12, 1e-9);
+    EXPECT_EQ(model->links[2].mass, 1) << "a link without collision has SDFormat's default";
+    EXPECT_NE(loaded.find("unnamed-robot"), nullptr);
+    EXPECT_EQ(loaded.find("no-inertial")->severity, Severity::kWarning);
+}
+
+TEST(Urdf, OfRos2ControlInitialPositionsAndMimicJointsCount) {
+    const auto control = [](const std::string& joints) {
+        std::string arm = kArm;
+        const std::string tip =
+            "<link name='tip'><inertial><mass value='1'/><inertia ixx='.1' iyy='.1' izz='.1' ixy='0' ixz='0' "
+            "iyz='0'/>"
+            "</inertial></link><joint name='wrist' type='continuous'><parent link='upper'/><child "
+            "link='tip'/>"
+            "<axis xyz='0 1 0'/></joint>\n<ros2_control name='system' "
+            "type='system'><hardware><plugin>p</plugin>"
+            "</hardware>";
+        return load_text(arm.insert(arm.rfind("</robot>"), tip + joints + "</ros2_control>\n"), "arm.urdf");
+    };
+    const auto start = [](const std::string& joint, const std::string& value) {
+        return "<joint name='" + joint +
+               "'><command_interface name='effort'/><state_interface name='position'>" +
+               "<param name='initial_value'>" + value + "</param></state_interface></joint>\n";
+    };
+    const Loaded loaded = control(start("shoulder", " 0.5 ") + start("gone", "1") +
+                                  "<joint name='wrist'><param name='mimic'>shoulder</param><param "
+                                  "name='multiplier'>-2</param></joint>");
+    EXPECT_FALSE(loaded.diagnostics.has_errors()) << loaded.text();
+    ASSERT_NE(loaded.find("ros2-control"), nullptr);
+    EXPECT_EQ(loaded.find("ros2-control")->where.line, 9);
+    std::map<std::string, AxisSpec> axes;
+    for (const JointSpec& joint : loaded.model("arm")->joints)
+        if (!joint.axes.empty()) axes[joint.name] = joint.axes.front();
+    EXPECT_EQ(axes["shoulder"].initial_position, 0.5);
+    ASSERT_TRUE(axes["wrist"].mimic);
+    EXPECT_EQ(axes["wrist"].mimic->joint, "shoulder");
+    EXPECT_EQ(axes["wrist"].mimic->multiplier, -2);
+    for (const char* value : {"1.6", "a"}) {
+        const Loaded bad = control(start("shoulder", value));
+        EXPECT_FALSE(bad.diagnostics.has_errors()) << bad.text();
+        EXPECT_NE(bad.find("initial-position"), nullptr) << value;
+    }
+}
+
 TEST(Urdf, SaysWhichLinksHaveNoInertial) {
     const Loaded none = load_text(
         "<robot name='r'>\n<link name='base'/>\n<link name='arm'/>\n<joint name='j' type='continuous'>"

@@ -77,6 +77,32 @@ std::string trimmed(std::string_view text) {
                               : std::string(text.substr(first, text.find_last_not_of(blank) - first + 1));
 }
 
+namespace {
+
+pugi::xml_parse_result parsed(pugi::xml_document& document, const std::string& text) {
+    return document.load_buffer(text.data(), text.size(), pugi::parse_default | pugi::parse_trim_pcdata);
+}
+
+/// Where the text ends if the end tag that broke the parsing off, and what follows, are end tags only; else
+/// all of it. TinyXML-2, which MuJoCo and libsdformat read with, stops there without a word.
+std::size_t end_before_stray_tags(const std::string& text, const pugi::xml_parse_result& result) {
+    if (result.status != pugi::status_end_element_mismatch) return text.size();
+    const std::size_t tag = text.rfind("</", static_cast<std::size_t>(result.offset));
+    if (tag == text.npos) return text.size();
+    std::size_t at = tag;
+    while (at < text.size()) {
+        if (text.compare(at, 2, "</") == 0)
+            at = text.find('>', at);
+        else if (!is_space(text[at]))
+            return text.size();
+        if (at == text.npos) return text.size();
+        ++at;
+    }
+    return tag;
+}
+
+}  // namespace
+
 std::unique_ptr<SourceFile> SourceFile::read(const std::string& path, Diagnostics& diagnostics) {
     std::error_code ignored;
     std::ifstream stream(path, std::ios::binary);
@@ -104,8 +130,13 @@ bool SourceFile::parse(std::string text, Diagnostics& diagnostics) {
     for (std::size_t at = text.find('\n'); at != std::string::npos; at = text.find('\n', at + 1)) {
         line_starts_.push_back(at + 1);
     }
-    const auto result =
-        document_.load_buffer(text.data(), text.size(), pugi::parse_default | pugi::parse_trim_pcdata);
+    auto result = parsed(document_, text);
+    const std::size_t whole = end_before_stray_tags(text, result);
+    if (whole != text.size() && parsed(document_, text.substr(0, whole))) {
+        diagnostics.warning({path_, line_of_offset(result.offset)}, "stray-end-tag",
+                            "an end tag after the end of the file's element is passed over", "Remove it.");
+        result.status = pugi::status_ok;
+    }
     if (!result) {
         const int line = line_of_offset(result.offset);
         const auto column =

@@ -69,6 +69,8 @@ class Browser {
 
     bool connected() const { return connected_; }
     bool closed() const { return closed_; }
+    /// What the gateway said as it closed the WebSocket.
+    std::string reason() const { return std::string(socket_.reason().reason.c_str()); }
     void send(const Json& message) { send_text(message.dump()); }
     void send_text(const std::string& text, bool binary = false);
     /// Bytes outside of any frame.

@@ -239,6 +239,8 @@ TEST_F(Viewed, WhoMisbehavesIsCutOffWithALineAndTheRunGoesOnWithTheSameHash) {
         misdeed.act(bad);
         EXPECT_TRUE(bad.until([&] { return bad.closed(); }, 5000)) << misdeed.name;
         EXPECT_TRUE(run->says(misdeed.line)) << misdeed.name << "\n" << run->log();
+        const bool told = misdeed.line != std::string("[broken]");
+        EXPECT_EQ(bad.reason().find(": ") != std::string::npos, told) << misdeed.name << ": " << bad.reason();
     }
     const std::uint64_t states = good.states();
     EXPECT_TRUE(good.until([&] { return good.states() > states; })) << "others are served as before";
