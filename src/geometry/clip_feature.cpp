@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <utility>
 
 namespace roboss::narrow {
 namespace {
@@ -19,11 +20,10 @@ struct Corner {
 };
 
 struct Polygon {
-    std::size_t count = 0;
-    std::array<Corner, ClippedFeature::kMaxPoints> corners;
+    FixedList<Corner, ClippedFeature::kMaxPoints> corners;
 
     void add(const Corner& corner) {
-        if (count < corners.size()) corners[count++] = corner;
+        if (!corners.full()) corners.push_back(corner);
     }
 };
 
@@ -59,12 +59,18 @@ struct Side {
     }
 };
 
-void clip_side(Polygon& polygon, const Side& side, const Feature& incident) {
-    Polygon out;
-    for (std::size_t i = 0; i < polygon.count; ++i) {
+/// What is left of `polygon` inside the side goes to `out`.
+void clip_side(const Polygon& polygon, const Side& side, const Feature& incident, Polygon& out) {
+    out.corners.clear();
+    const std::size_t count = polygon.corners.size();
+    const double first = side.depth(polygon.corners[0].p);
+    double b = first;
+    for (std::size_t i = 0; i < count; ++i) {
+        const bool is_last = i + 1 == count;
         const Corner& p = polygon.corners[i];
-        const Corner& q = polygon.corners[i + 1 == polygon.count ? 0 : i + 1];
-        const double a = side.depth(p.p), b = side.depth(q.p);
+        const Corner& q = polygon.corners[is_last ? 0 : i + 1];
+        const double a = b;
+        b = is_last ? first : side.depth(q.p);
         const bool p_inside = a >= -side.border, q_inside = b >= -side.border;
         if (p_inside) out.add(p);
         if (p_inside == q_inside) continue;
@@ -73,19 +79,14 @@ void clip_side(Polygon& polygon, const Side& side, const Feature& incident) {
         c.of_face = p_inside ? true : p.of_face;
         out.add(c);
     }
-    polygon = out;
 }
 
 /// Adds a point, or merges it with one closer than `merge`: the deeper place counts, and a corner's name
 /// rather than a crossing's.
 void add_point(const Feature& face, const OverFace& point, double merge, ClippedFeature& out) {
-    const auto end = out.points.begin() + static_cast<long>(out.count);
-    const auto known = std::find_if(out.points.begin(), end,
+    const auto known = std::find_if(out.points.begin(), out.points.end(),
                                     [&](const OverFace& o) { return norm(o.p - point.p) <= merge; });
-    if (known == end) {
-        out.points[out.count++] = point;
-        return;
-    }
+    if (known == out.points.end()) return out.points.push_back(point);
     if (point.gap < known->gap) known->p = point.p, known->gap = point.gap;
     if (point.reference_part == face.face_part && known->reference_part != face.face_part)
         known->part = point.part, known->reference_part = point.reference_part;
@@ -98,15 +99,16 @@ OverFace over(const Feature& face, const Vec3& p, double ball, std::uint32_t par
 
 void clip_polygon(const Feature& face, const Feature& incident, double ball, double border, double merge,
                   ClippedFeature& out) {
-    Polygon polygon;
+    std::array<Polygon, 2> polygons;
+    Polygon *polygon = &polygons[0], *next = &polygons[1];
     for (std::uint32_t i = 0; i < incident.count; ++i)
-        polygon.add({incident.points[i], incident.part[i], face.face_part, incident.edge_part[i], false});
-    for (std::size_t k = 0; k < face.count && polygon.count > 0; ++k)
-        clip_side(polygon, Side(face, k, border), incident);
-    for (std::size_t i = 0; i < polygon.count; ++i) {
-        const Corner& c = polygon.corners[i];
-        add_point(face, over(face, c.p, ball, c.part, c.reference_part), merge, out);
+        polygon->add({incident.points[i], incident.part[i], face.face_part, incident.edge_part[i], false});
+    for (std::size_t k = 0; k < face.count && !polygon->corners.empty(); ++k) {
+        clip_side(*polygon, Side(face, k, border), incident, *next);
+        std::swap(polygon, next);
     }
+    for (const Corner& c : polygon->corners)
+        add_point(face, over(face, c.p, ball, c.part, c.reference_part), merge, out);
 }
 
 /// A line, or a point as a line without length.
@@ -140,7 +142,7 @@ void clip_line(const Feature& face, const Feature& incident, double ball, double
 
 double ClippedFeature::deepest() const {
     double gap = std::numeric_limits<double>::infinity();
-    for (std::size_t i = 0; i < count; ++i) gap = std::min(gap, points[i].gap);
+    for (const OverFace& point : points) gap = std::min(gap, point.gap);
     return gap;
 }
 

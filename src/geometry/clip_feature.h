@@ -5,6 +5,7 @@
 #include <span>
 
 #include "geometry/convex_body.h"
+#include "geometry/fixed_list.h"
 
 namespace roboss::narrow {
 
@@ -17,8 +18,7 @@ struct OverFace {
 
 struct ClippedFeature {
     static constexpr std::size_t kMaxPoints = 2 * Feature::kMaxPoints;
-    std::size_t count = 0;
-    std::array<OverFace, kMaxPoints> points;
+    FixedList<OverFace, kMaxPoints> points;
 
     double deepest() const;  // smallest gap; infinity: no point
 };

@@ -14,53 +14,63 @@ struct Vertex {
     Vec3 w, first;
 };
 
-Vertex mix(const Vertex& a, const Vertex& b, double t) {
-    return {a.w + (b.w - a.w) * t, a.first + (b.first - a.first) * t};
-}
+/// The feature of a simplex that is closest to the origin: a point, segment or triangle of its vertices.
+struct Closest {
+    std::size_t count = 0;
+    std::array<std::size_t, 3> v{};
+    Vec3 w;                        // its point closest to the origin
+    double second = 0, third = 0;  // that point's weights at v[1] and v[2]
+};
 
 struct Simplex {
     std::size_t count = 0;
     std::array<Vertex, 4> v;
-    Vertex closest;
+    Vec3 closest, first;  // closest to the origin; the first shape's share of it
     bool inside = false;
 
-    void set(std::initializer_list<Vertex> vertices, const Vertex& point) {
-        count = 0;
-        for (const Vertex& vertex : vertices) v[count++] = vertex;
-        closest = point;
-    }
     bool has(const Vec3& w) const {
         for (std::size_t i = 0; i < count; ++i) {
             if (v[i].w == w) return true;
         }
         return false;
     }
+    void keep(const Closest& feature) {
+        const Vertex a = v[feature.v[0]], b = v[feature.v[1]], c = v[feature.v[2]];
+        count = feature.count;
+        closest = feature.w;
+        first = a.first;
+        if (count > 1) first += (b.first - a.first) * feature.second;
+        if (count > 2) first += (c.first - a.first) * feature.third;
+        v[0] = a, v[1] = b, v[2] = c;
+    }
 };
 
-void reduce_segment(Simplex& s, const Vertex& a, const Vertex& b) {
-    const Vec3 ab = b.w - a.w;
-    const double length_squared = norm_squared(ab), along = -dot(a.w, ab);
-    if (along <= 0.0 || length_squared == 0.0) return s.set({a}, a);
-    if (along >= length_squared) return s.set({b}, b);
-    s.set({a, b}, mix(a, b, along / length_squared));
+Closest closest_on_segment(const Simplex& s, std::size_t a, std::size_t b) {
+    const Vec3 &wa = s.v[a].w, &wb = s.v[b].w;
+    const Vec3 ab = wb - wa;
+    const double length_squared = norm_squared(ab), along = -dot(wa, ab);
+    if (along <= 0.0 || length_squared == 0.0) return {1, {a}, wa};
+    if (along >= length_squared) return {1, {b}, wb};
+    const double t = along / length_squared;
+    return {2, {a, b}, wa + ab * t, t};
 }
 
-void reduce_triangle(Simplex& s, const Vertex& a, const Vertex& b, const Vertex& c) {
-    const Vec3 ab = b.w - a.w, ac = c.w - a.w;
-    const double d1 = -dot(ab, a.w), d2 = -dot(ac, a.w), d3 = -dot(ab, b.w), d4 = -dot(ac, b.w),
-                 d5 = -dot(ab, c.w), d6 = -dot(ac, c.w);
-    if (d1 <= 0.0 && d2 <= 0.0) return s.set({a}, a);
-    if (d3 >= 0.0 && d4 <= d3) return s.set({b}, b);
-    if (d6 >= 0.0 && d5 <= d6) return s.set({c}, c);
-    const double vc = d1 * d4 - d3 * d2, vb = d5 * d2 - d1 * d6, va = d3 * d6 - d5 * d4;
-    if (vc <= 0.0 && d1 >= 0.0 && d3 <= 0.0) return reduce_segment(s, a, b);
-    if (vb <= 0.0 && d2 >= 0.0 && d6 <= 0.0) return reduce_segment(s, a, c);
-    if (va <= 0.0 && d4 - d3 >= 0.0 && d5 - d6 >= 0.0) return reduce_segment(s, b, c);
+Closest closest_on_triangle(const Simplex& s, std::size_t a, std::size_t b, std::size_t c) {
+    const Vec3 &wa = s.v[a].w, &wb = s.v[b].w, &wc = s.v[c].w;
+    const Vec3 ab = wb - wa, ac = wc - wa;
+    const double d1 = -dot(ab, wa), d2 = -dot(ac, wa), d3 = -dot(ab, wb), d4 = -dot(ac, wb),
+                 d5 = -dot(ab, wc), d6 = -dot(ac, wc);
+    if (d1 <= 0.0 && d2 <= 0.0) return {1, {a}, wa};
+    if (d3 >= 0.0 && d4 <= d3) return {1, {b}, wb};
+    if (d6 >= 0.0 && d5 <= d6) return {1, {c}, wc};
+    const double area_c = d1 * d4 - d3 * d2, area_b = d5 * d2 - d1 * d6, area_a = d3 * d6 - d5 * d4;
+    if (area_c <= 0.0 && d1 >= 0.0 && d3 <= 0.0) return closest_on_segment(s, a, b);
+    if (area_b <= 0.0 && d2 >= 0.0 && d6 <= 0.0) return closest_on_segment(s, a, c);
+    if (area_a <= 0.0 && d4 - d3 >= 0.0 && d5 - d6 >= 0.0) return closest_on_segment(s, b, c);
     const Vec3 normal = cross(ab, ac);
-    const double area_squared = norm_squared(normal), volume = va + vb + vc;
-    if (!(area_squared > 0.0 && volume > 0.0)) return reduce_segment(s, a, b);
-    const Vec3 first = a.first + (b.first - a.first) * (vb / volume) + (c.first - a.first) * (vc / volume);
-    s.set({a, b, c}, {normal * (dot(normal, a.w) / area_squared), first});
+    const double area_squared = norm_squared(normal), volume = area_a + area_b + area_c;
+    if (!(area_squared > 0.0 && volume > 0.0)) return closest_on_segment(s, a, b);
+    return {3, {a, b, c}, normal * (dot(normal, wa) / area_squared), area_b / volume, area_c / volume};
 }
 
 /// True when the origin lies on the side of plane abc away from d, or the tetrahedron is flat.
@@ -71,78 +81,72 @@ bool outside(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
 }
 
 void reduce_tetrahedron(Simplex& s) {
-    const std::array<Vertex, 4> v = s.v;
     constexpr std::size_t kFaces[4][4] = {{0, 1, 2, 3}, {0, 2, 3, 1}, {0, 3, 1, 2}, {1, 3, 2, 0}};
-    Simplex best;
+    Closest best;
     double best_squared = 1e300;
     for (const auto& f : kFaces) {
-        if (!outside(v[f[0]].w, v[f[1]].w, v[f[2]].w, v[f[3]].w)) continue;
-        Simplex face;
-        reduce_triangle(face, v[f[0]], v[f[1]], v[f[2]]);
-        const double squared = norm_squared(face.closest.w);
+        if (!outside(s.v[f[0]].w, s.v[f[1]].w, s.v[f[2]].w, s.v[f[3]].w)) continue;
+        const Closest face = closest_on_triangle(s, f[0], f[1], f[2]);
+        const double squared = norm_squared(face.w);
         if (squared < best_squared) best_squared = squared, best = face;
     }
     if (best.count == 0) {
         s.inside = true;
     } else {
-        s = best;
+        s.keep(best);
     }
 }
 
 void reduce(Simplex& s) {
-    const std::array<Vertex, 4> v = s.v;
     switch (s.count) {
         case 1:
-            return s.set({v[0]}, v[0]);
+            s.closest = s.v[0].w, s.first = s.v[0].first;
+            return;
         case 2:
-            return reduce_segment(s, v[0], v[1]);
+            return s.keep(closest_on_segment(s, 0, 1));
         case 3:
-            return reduce_triangle(s, v[0], v[1], v[2]);
+            return s.keep(closest_on_triangle(s, 0, 1, 2));
         default:
             return reduce_tetrahedron(s);
     }
 }
 
-template <class Sum>
-Vertex support(const Sum& sum, const Vec3& n) {
-    Vec3 first;
-    const Vec3 x = sum.support(n, first);
-    return {x - sum.centre(), first};
-}
-
 }  // namespace
 
 template <class Sum>
-ClosestApart closest_apart(const Sum& sum, const Separation& start, double enough) {
+ClosestApart closest_apart(const Sum& sum, const Separation& start, double enough, double too_little) {
     ClosestApart result{start, false, {}};
     Separation& best = result.best;
     Simplex simplex;
-    simplex.v[0] = support(sum, start.n);
+    const Touching begin = sum.touching(start.n);
+    simplex.v[0] = {begin.support - sum.centre(), begin.first};
     simplex.count = 1;
     reduce(simplex);
     const double touching = 1e-7 * sum.scale();
     for (int step = 0; step < kStepsMax; ++step) {
-        result.first = simplex.closest.first;
-        const double squared = norm_squared(simplex.closest.w);
+        result.first = simplex.first;
+        const double squared = norm_squared(simplex.closest);
         if (squared <= touching * touching) {
             result.overlap = true;
             break;
         }
         const double distance = std::sqrt(squared);
-        const Separation found = sum.separation(simplex.closest.w / -distance);
+        if (distance < too_little) break;
+        const Touching found = sum.touching(simplex.closest / -distance);
         if (found.s > best.s) best = found;
         if (best.s > enough || distance - best.s <= sum.apart_gap() * (distance + sum.scale())) break;
-        const Vertex vertex = support(sum, found.n);
+        const Vertex vertex{found.support - sum.centre(), found.first};
         if (simplex.has(vertex.w)) break;
         simplex.v[simplex.count++] = vertex;
         reduce(simplex);
         result.overlap = simplex.inside;
-        if (simplex.inside || !(norm_squared(simplex.closest.w) < squared)) break;
+        if (simplex.inside || !(norm_squared(simplex.closest) < squared)) break;
     }
     return result;
 }
 
-template ClosestApart closest_apart(const ConvexSum&, const Separation&, double);
-template ClosestApart closest_apart(const GeneralSum&, const Separation&, double);
+template ClosestApart closest_apart(const ConvexSum&, const Separation&, double, double);
+template ClosestApart closest_apart(const GeneralSum&, const Separation&, double, double);
+template ClosestApart closest_apart(const SweptSum&, const Separation&, double, double);
 
 }  // namespace roboss::narrow

@@ -1,9 +1,11 @@
 // The global part of the search for the deepest or closest direction: GJK while the shapes are apart, a
-// polytope expanded from inside (EPA) when they overlap, then polishing. `Sum` is ConvexSum or GeneralSum.
+// polytope expanded from inside (EPA) when they overlap, then polishing. `Sum` is ConvexSum or GeneralSum,
+// for closest_apart also SweptSum.
 #pragma once
 
 #include "geometry/convex_sum.h"
 #include "geometry/general_sum.h"
+#include "geometry/swept_sum.h"
 
 namespace roboss::narrow {
 
@@ -19,9 +21,10 @@ struct ClosestApart {
 };
 
 /// Gilbert, Johnson and Keerthi, "A Fast Procedure for Computing the Distance between Complex Objects in
-/// Three-Dimensional Space", 1988.
+/// Three-Dimensional Space", 1988. The search ends early once it knows that the separation is at most
+/// `too_little`.
 template <class Sum>
-ClosestApart closest_apart(const Sum& sum, const Separation& start, double enough);
+ClosestApart closest_apart(const Sum& sum, const Separation& start, double enough, double too_little = 0);
 
 /// After van den Bergen, "Proximity Queries and Penetration Depth Computation on 3D Game Objects", 2001. The
 /// polytope starts round the centre of the sum, so it needs no simplex from GJK, and works for a slight

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "geometry/closest_direction.h"
+#include "geometry/fixed_list.h"
 
 namespace roboss::narrow {
 namespace {
@@ -12,8 +13,10 @@ constexpr std::size_t kVerticesMax = 120;
 constexpr std::size_t kFacesMax = 2 * kVerticesMax + 64;
 constexpr std::size_t kEdgesMax = 256;
 
+using Number = std::uint16_t;  // of a vertex
+
 struct Face {
-    std::array<std::size_t, 3> v{};
+    std::array<Number, 3> v{};
     Vec3 n;
     double offset = 0;  // n.x = offset on the face
     double s = -1e300;  // separation of the sum's centre from the face's plane
@@ -22,38 +25,37 @@ struct Face {
 template <class Sum>
 class Polytope {
   public:
-    // The arrays are read below their counts only.
-    // NOLINTNEXTLINE(cppcoreguidelines-pro-type-member-init)
     explicit Polytope(const Sum& sum) : sum_(sum) {}
 
     bool start(const Vec3& n) { return Sum::kSymmetric ? start_octahedron(n) : start_tetrahedron(n); }
 
     const Face& best_face() const {
-        return *std::max_element(faces_.begin(), faces_.begin() + static_cast<long>(face_count_),
+        return *std::max_element(faces_.begin(), faces_.end(),
                                  [](const Face& a, const Face& b) { return a.s < b.s; });
     }
 
     /// Takes the point into the hull; false when the storage is full or the point changes nothing.
     bool expand(const Vec3& x) {
-        if (vertex_count_ == kVerticesMax || face_count_ + 64 > kFacesMax) return false;
-        edge_count_ = 0;
+        if (vertices_.full() || faces_.size() + 64 > kFacesMax) return false;
+        edges_.clear();
         const double visible = 1e-13 * sum_.inradius();
-        for (std::size_t i = 0; i < face_count_;) {
+        for (std::size_t i = 0; i < faces_.size();) {
             if (dot(faces_[i].n, x) - faces_[i].offset <= visible) {
                 ++i;
                 continue;
             }
             const auto v = faces_[i].v;
-            if (edge_count_ + 3 > kEdgesMax) return false;
+            if (edges_.size() + 3 > kEdgesMax) return false;
             toggle_edge(v[0], v[1]);
             toggle_edge(v[1], v[2]);
             toggle_edge(v[2], v[0]);
-            faces_[i] = faces_[--face_count_];
+            faces_[i] = faces_.back();
+            faces_.pop_back();
         }
-        if (edge_count_ == 0 || face_count_ + edge_count_ > kFacesMax) return false;
-        vertices_[vertex_count_] = x;
-        for (std::size_t i = 0; i < edge_count_; ++i) add_face(edges_[i][0], edges_[i][1], vertex_count_);
-        ++vertex_count_;
+        if (edges_.empty() || faces_.size() + edges_.size() > kFacesMax) return false;
+        const auto number = static_cast<Number>(vertices_.size());
+        vertices_.push_back(x);
+        for (const auto& edge : edges_) add_face(edge[0], edge[1], number);
         return true;
     }
 
@@ -70,10 +72,9 @@ class Polytope {
         const double area = norm(across);
         if (!(area > 0.0)) return false;
         const Vec3 c = sum_.support(across / area);  // cross(a, b).c > 0
-        vertices_ = {a, b, c, -a, -b, -c};
-        vertex_count_ = 6;
-        for (std::size_t k = 0; k < 8; ++k) {
-            const std::size_t x = (k & 1u) != 0 ? 3 : 0, y = (k & 2u) != 0 ? 4 : 1, z = (k & 4u) != 0 ? 5 : 2;
+        for (const Vec3& v : {a, b, c, -a, -b, -c}) vertices_.push_back(v);
+        for (std::uint32_t k = 0; k < 8; ++k) {
+            const Number x = (k & 1u) != 0 ? 3 : 0, y = (k & 2u) != 0 ? 4 : 1, z = (k & 4u) != 0 ? 5 : 2;
             const bool even = ((k & 1u) + (k >> 1 & 1u) + (k >> 2)) % 2 == 0;
             even ? add_face(x, y, z) : add_face(x, z, y);
         }
@@ -100,14 +101,12 @@ class Polytope {
         const Vec3 d = furthest(across / area);
         const double height = dot(across / area, d - a);
         if (!(std::fabs(height) > 1e-12 * length)) return false;
-        vertices_[0] = a, vertices_[1] = height < 0.0 ? b : c, vertices_[2] = height < 0.0 ? c : b;
-        vertices_[3] = d;
-        vertex_count_ = 4;
+        for (const Vec3& v : {a, height < 0.0 ? b : c, height < 0.0 ? c : b, d}) vertices_.push_back(v);
         add_face(0, 1, 2), add_face(0, 3, 1), add_face(1, 3, 2), add_face(2, 3, 0);
         return true;
     }
 
-    void add_face(std::size_t a, std::size_t b, std::size_t c) {
+    void add_face(Number a, Number b, Number c) {
         Face face{{a, b, c}, {}, 0, -1e300};
         const Vec3 normal = cross(vertices_[b] - vertices_[a], vertices_[c] - vertices_[a]);
         const double length = norm(normal);
@@ -116,25 +115,24 @@ class Polytope {
             face.offset = dot(face.n, vertices_[a]);
             face.s = dot(face.n, sum_.centre()) - face.offset;
         }
-        faces_[face_count_++] = face;
+        faces_.push_back(face);
     }
 
     /// Keeps the edges that only one of the removed faces has: the horizon.
-    void toggle_edge(std::size_t a, std::size_t b) {
-        for (std::size_t i = 0; i < edge_count_; ++i) {
-            if (edges_[i][0] == b && edges_[i][1] == a) {
-                edges_[i] = edges_[--edge_count_];
-                return;
+    void toggle_edge(Number a, Number b) {
+        for (auto& edge : edges_) {
+            if (edge[0] == b && edge[1] == a) {
+                edge = edges_.back();
+                return edges_.pop_back();
             }
         }
-        edges_[edge_count_++] = {a, b};
+        edges_.push_back({a, b});
     }
 
     const Sum& sum_;
-    std::size_t vertex_count_ = 0, face_count_ = 0, edge_count_ = 0;
-    std::array<Vec3, kVerticesMax> vertices_;
-    std::array<Face, kFacesMax> faces_;
-    std::array<std::array<std::size_t, 2>, kEdgesMax> edges_;
+    FixedList<Vec3, kVerticesMax> vertices_;
+    FixedList<Face, kFacesMax> faces_;
+    FixedList<std::array<Number, 2>, kEdgesMax> edges_;
 };
 
 }  // namespace
@@ -148,9 +146,9 @@ Separation closest_overlapping(const Sum& sum, const Separation& start) {
     while (true) {
         const Face face = polytope.best_face();
         if (face.s <= best.s + gap) return best;
-        const Separation found = sum.separation(face.n);
+        const Touching found = sum.touching(face.n);
         if (found.s > best.s) best = found;
-        if (face.s <= best.s + gap || !polytope.expand(sum.support(face.n))) return best;
+        if (face.s <= best.s + gap || !polytope.expand(found.support)) return best;
     }
 }
 

@@ -27,48 +27,45 @@ struct NamedLine {
 
 struct FaceChoice {
     bool of_first = true;
-    Feature face;
     double cosine = 0;
 };
 
 FaceChoice face_most_along(const ConvexBody& a, const ConvexBody& b, const Vec3& n) {
     FaceChoice best;
     for (const bool of_first : {true, false}) {
-        const Feature f = of_first ? a.feature(-n) : b.feature(n);
-        if (!f.is_face()) continue;
-        const double cosine = of_first ? -dot(f.n, n) : dot(f.n, n);
-        if (cosine > best.cosine + 1e-9) best.of_first = of_first, best.face = f, best.cosine = cosine;
+        const Vec3 normal = of_first ? a.face_normal(-n) : b.face_normal(n);
+        const double cosine = of_first ? -dot(normal, n) : dot(normal, n);  // 0 if there is no face
+        if (cosine > best.cosine + 1e-9) best = {of_first, cosine};
     }
     return best;
 }
 
-ClippedFeature over_face(const ConvexBody& a, const ConvexBody& b, const FaceChoice& choice, double size) {
-    const ConvexBody& other = choice.of_first ? b : a;
-    return clip_over(choice.face, other.feature(-choice.face.n), other.ball(), kBorder * size, kMerge * size);
+/// `face` is that of the first or the second body.
+ClippedFeature over_face(const ConvexBody& a, const ConvexBody& b, bool of_first, const Feature& face,
+                         double size) {
+    const ConvexBody& other = of_first ? b : a;
+    return clip_over(face, other.feature(-face.n), other.ball(), kBorder * size, kMerge * size);
 }
 
-void write_face(const ConvexBody& a, const ConvexBody& b, const FaceChoice& choice,
+void write_face(const ConvexBody& a, const ConvexBody& b, bool of_first, const Feature& face,
                 const ClippedFeature& clipped, double margin, Manifold& out) {
-    const double ball = (choice.of_first ? b : a).ball();
-    std::array<Vec3, ClippedFeature::kMaxPoints> points;
-    std::array<double, ClippedFeature::kMaxPoints> gaps{};
-    std::array<std::uint32_t, ClippedFeature::kMaxPoints> features{};
-    std::size_t count = 0;
-    for (std::size_t i = 0; i < clipped.count; ++i) {
-        const OverFace& c = clipped.points[i];
+    const double ball = (of_first ? b : a).ball();
+    FixedList<Vec3, ClippedFeature::kMaxPoints> points;
+    FixedList<double, ClippedFeature::kMaxPoints> gaps;
+    FixedList<std::uint32_t, ClippedFeature::kMaxPoints> features;
+    for (const OverFace& c : clipped.points) {
         if (c.gap > margin) continue;
-        points[count] = c.p - choice.face.n * (ball + 0.5 * c.gap);
-        features[count] =
-            choice.of_first ? wide_feature(c.reference_part, c.part) : wide_feature(c.part, c.reference_part);
-        gaps[count++] = c.gap;
+        points.push_back(c.p - face.n * (ball + 0.5 * c.gap));
+        features.push_back(of_first ? wide_feature(c.reference_part, c.part)
+                                    : wide_feature(c.part, c.reference_part));
+        gaps.push_back(c.gap);
     }
-    out.n_W = choice.of_first ? -choice.face.n : choice.face.n;
-    if (count <= static_cast<std::size_t>(Manifold::kMaxPoints)) {
-        for (std::size_t i = 0; i < count; ++i) out.add(points[i], gaps[i], features[i]);
+    out.n_W = of_first ? -face.n : face.n;
+    if (points.size() <= static_cast<std::size_t>(Manifold::kMaxPoints)) {
+        for (std::size_t i = 0; i < points.size(); ++i) out.add(points[i], gaps[i], features[i]);
         return;
     }
-    const Chosen chosen =
-        choose_points(std::span(points).first(count), std::span(gaps).first(count), out.n_W);
+    const Chosen chosen = choose_points(points, gaps, out.n_W);
     for (std::size_t k = 0; k < chosen.count; ++k) {
         const std::size_t i = chosen.number[k];
         out.add(points[i], gaps[i], features[i]);
@@ -104,10 +101,12 @@ double cap_slack(const ConvexBody& a, const ConvexBody& b, const Vec3& n) {
     double slack = 0.0;
     for (const ConvexBody* s : {&a, &b}) {
         if (!s->curved()) continue;
-        const Feature f = s->feature(s == &a ? -n : n);
-        if (!f.is_face()) continue;
-        const double tilt = norm(cross(f.n, n));
-        if (tilt < 1e-4) slack += 0.3 * tilt * norm(f.points[0] - f.points[4]);
+        const Vec3 along = s == &a ? -n : n, normal = s->face_normal(along);
+        if (normal == Vec3{}) continue;
+        const double tilt = norm(cross(normal, n));
+        if (!(tilt < 1e-4)) continue;
+        const Feature cap = s->feature(along);
+        slack += 0.3 * tilt * norm(cap.points[0] - cap.points[4]);
     }
     return slack;
 }
@@ -119,7 +118,7 @@ Separation best_separation(const ConvexBody& a, const ConvexBody& b, double enou
     const double distance = norm(sum.centre());
     Separation best = sum.separation(distance > 0.0 ? sum.centre() / distance : Vec3{0, 0, 1});
     if (best.s > enough) return best;
-    for (const Vec3& n : {-a.feature(-best.n).n, b.feature(best.n).n}) {
+    for (const Vec3& n : {-a.face_normal(-best.n), b.face_normal(best.n)}) {
         if (norm_squared(n) < 0.5) continue;
         const Separation found = sum.separation(n);
         if (found.s > best.s) best = found;
@@ -135,8 +134,10 @@ void write_general(const ConvexBody& a, const ConvexBody& b, const Separation& b
     const double gap_max = gap + 1e-3 * std::fabs(gap) + 1e-6 * size + cap_slack(a, b, best.n);
     const FaceChoice choice = face_most_along(a, b, best.n);
     if (choice.cosine > kAlmostParallel) {
-        const ClippedFeature clipped = over_face(a, b, choice, size);
-        if (clipped.deepest() <= gap_max) return write_face(a, b, choice, clipped, margin, out);
+        const Feature face = choice.of_first ? a.feature(-best.n) : b.feature(best.n);
+        const ClippedFeature clipped = over_face(a, b, choice.of_first, face, size);
+        if (clipped.deepest() <= gap_max)
+            return write_face(a, b, choice.of_first, face, clipped, margin, out);
     }
     for (const LineRule& rule : kLineRules) {
         if (write_lines(a, b, best, rule, gap_max, margin, out)) return;

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "geometry/closest_point.h"
 #include "geometry/collide_general.h"
 
 namespace roboss {
@@ -21,6 +22,7 @@ constexpr double kSameDirection = 0.98;          // cosine within which contacts
 constexpr std::uint32_t kFace = 6;               // a triangle's part: inside it
 constexpr std::uint32_t kAnywhere = 0xFFFFF;
 constexpr double kDeeper = 1e-9;  // m
+constexpr double kFar = 1e-9;     // m beyond the margin: more than rounding
 
 class SurfaceCollider {
   public:
@@ -51,7 +53,7 @@ class SurfaceCollider {
         const bool shallow = s_face > -kShallow * body_.size();
         const bool ridge = std::any_of(triangle_.fold.begin(), triangle_.fold.end(),
                                        [](double fold) { return fold < kRidge; });
-        const bool over_it = over.count > 0 && over.deepest() <= s_face + 1e-6 * body_.size();
+        const bool over_it = !over.points.empty() && over.deepest() <= s_face + 1e-6 * body_.size();
         if ((shallow && (!ridge || over_it)) || height < 0.0) return add_face(over, out_.candidates);
         collide_ridge(over, shallow);
     }
@@ -70,7 +72,15 @@ class SurfaceCollider {
 
     std::size_t corner_of_surface(std::size_t k) const { return turned_ && k > 0 ? 3 - k : k; }
 
+    /// True only if the body is further than the margin; quick, and mostly true where it is.
+    bool is_far() const {
+        const Vec3 away = body_.centre() - closest_point(triangle_.v, body_.centre());
+        const double distance = norm(away), enough = margin_ + body_.ball();
+        return distance > 0.0 && distance - body_.reach(away / -distance) > enough + kFar;
+    }
+
     void collide_ridge(const ClippedFeature& over, bool shallow) {
+        if (is_far()) return;
         const ConvexBody sheet(triangle_.v, triangle_.n);
         const Separation best = best_separation(body_, sheet, margin_ + body_.ball());
         if (best.s > margin_ + body_.ball()) return;
@@ -105,8 +115,7 @@ class SurfaceCollider {
 
     void add_face(const ClippedFeature& over, std::vector<SurfaceContact>& to) {
         const Vec3& n = triangle_.n;
-        for (std::size_t i = 0; i < over.count; ++i) {
-            const OverFace& c = over.points[i];
+        for (const OverFace& c : over.points) {
             if (c.gap <= margin_)
                 add(c.p - n * (body_.ball() + 0.5 * c.gap), n, c.gap, c.part, c.reference_part, to);
         }

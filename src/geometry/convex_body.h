@@ -6,21 +6,21 @@
 #include <array>
 
 #include "geometry/convex_hull.h"
+#include "geometry/fixed_list.h"
 #include "geometry/narrow.h"
 
 namespace roboss::narrow {
 
 /// The edges that are nearly perpendicular to a direction, and the face normals that are nearly along it.
 struct NearFeatures {
-    std::size_t edge_count = 0, normal_count = 0;
-    std::array<Vec3, 16> edges;   // unit, W
-    std::array<Vec3, 8> normals;  // unit, W, outward
+    FixedList<Vec3, 16> edges;   // unit, W
+    FixedList<Vec3, 8> normals;  // unit, W, outward
 
     void add_edge(const Vec3& e) {
-        if (edge_count < edges.size()) edges[edge_count++] = e;
+        if (!edges.full()) edges.push_back(e);
     }
     void add_normal(const Vec3& n) {
-        if (normal_count < normals.size()) normals[normal_count++] = n;
+        if (!normals.full()) normals.push_back(n);
     }
 };
 
@@ -68,6 +68,8 @@ class ConvexBody {
     /// The feature furthest along d that may meet a face: always a face of a polytope, its best at the
     /// furthest corner; a cylinder's cap as an octagon, or its line.
     Feature feature(const Vec3& d) const;
+    /// The normal of feature(d) if that is a face, else zero.
+    Vec3 face_normal(const Vec3& d) const;
     /// The edge furthest along the unit vector d if one is perpendicular to it to within the sine
     /// `tolerance`, else the point.
     Feature line(const Vec3& d, double tolerance) const;

@@ -34,6 +34,29 @@ Feature ConvexBody::feature(const Vec3& d) const {
     }
 }
 
+Vec3 ConvexBody::face_normal(const Vec3& d) const {
+    switch (core_) {
+        case Core::kBox:
+            return BoxFace(*posed_, d).n;
+        case Core::kHull: {
+            const ConvexHull& hull = *posed_->shape.hull;
+            const Vec3 d_S = transpose_times(posed_->X.R, d);
+            last_ = hull.furthest(d_S, last_);
+            return posed_->X.R * hull.faces[hull.face_along(d_S, last_)].n;
+        }
+        case Core::kTriangle:
+            return dot(d, normal_) < 0.0 ? -normal_ : normal_;
+        case Core::kCylinder: {
+            const Vec3 u = posed_->axis(2);
+            const double along = dot(d, u);
+            if (along * along > 0.5 * norm_squared(d)) return along > 0.0 ? u : -u;
+            return {};
+        }
+        default:
+            return {};
+    }
+}
+
 Feature ConvexBody::line(const Vec3& d, double tolerance) const {
     switch (core_) {
         case Core::kBox:

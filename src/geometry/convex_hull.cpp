@@ -15,7 +15,9 @@ std::uint32_t ConvexHull::furthest(const Vec3& d, std::uint32_t start) const {
         double most = dot(d, vertices[0]);
         for (std::uint32_t i = 1; i < vertices.size(); ++i) {
             const double x = dot(d, vertices[i]);
-            if (x > most) most = x, best = i;
+            const bool is_further = x > most;  // no branch: it would be guessed wrong
+            most = is_further ? x : most;
+            best = is_further ? i : best;
         }
         return best;
     }

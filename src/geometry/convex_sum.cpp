@@ -55,23 +55,24 @@ double ConvexSum::reach(const Vec3& n) const {
 }
 
 Vec3 ConvexSum::support(const Vec3& n) const {
-    Vec3 first;
-    return support(n, first);
+    return touching(n).support;
 }
 
-Vec3 ConvexSum::support(const Vec3& n, Vec3& first) const {
+Touching ConvexSum::touching(const Vec3& n) const {
     std::array<Vec3, 2> share;
+    double h = 0.0;
     for (std::size_t i = 0; i < segment_count_; ++i) {
-        share[i < first_segments_ ? 0 : 1] +=
-            direction_[i] * (dot(n, direction_[i]) < 0.0 ? -half_[i] : half_[i]);
+        const double along = dot(n, direction_[i]);
+        h += half_[i] * std::fabs(along);
+        share[i < first_segments_ ? 0 : 1] += direction_[i] * (along < 0.0 ? -half_[i] : half_[i]);
     }
     for (std::size_t i = 0; i < disc_count_; ++i) {
         const Vec3 radial = radial_part(n, discs_[i].axis);
         const double length = norm(radial);
+        h += discs_[i].radius * length;
         if (length > 1e-12) share[i < first_discs_ ? 0 : 1] += radial * (discs_[i].radius / length);
     }
-    first = share[0];
-    return share[0] + share[1];
+    return {{n, dot(n, centre_) - h}, share[0] + share[1], share[0]};
 }
 
 ConvexSum ConvexSum::moved(const Vec3& by) const {
@@ -119,17 +120,22 @@ Separation ConvexSum::best_natural(double enough) const {
     return best;
 }
 
-Separation ConvexSum::climb(Vec3 n, const Vec3* edge) const {
-    Separation best = separation(n);
+Separation ConvexSum::climb(const Vec3& start, const Vec3* edge) const {
+    if (disc_count_ == 0) {  // overlapping polytopes: no curvature, no step
+        const Separation there = separation(start);
+        if (!(there.s > 0.0)) return there;
+    }
+    Touching best = touching(start);
     for (int step = 0; step < kNewtonSteps; ++step) {
+        const Vec3& n = best.n;
         Vec3 t1, t2;
         if (edge != nullptr) {
             t1 = cross(*edge, n);
         } else {
             tangents(n, t1, t2);
         }
-        const Vec3 gap = centre_ - support(n);
-        const double s = dot(n, centre_) - reach(n);
+        const Vec3 gap = centre_ - best.support;
+        const double s = best.s;
         const double g1 = dot(t1, gap), g2 = dot(t2, gap);
         double h11 = s, h22 = s, h12 = 0.0;
         for (std::size_t i = 0; i < disc_count_; ++i) {
@@ -152,8 +158,7 @@ Separation ConvexSum::climb(Vec3 n, const Vec3* edge) const {
             move = t1 * ((h22 * g1 - h12 * g2) / determinant) + t2 * ((h11 * g2 - h12 * g1) / determinant);
         }
         if (!(norm_squared(move) < 0.25)) return best;
-        n = normalized(n + move);
-        const Separation found = separation(n);
+        const Touching found = touching(normalized(n + move));
         if (!(found.s >= best.s - rounding())) return best;
         best = found;  // also when equal: the gap is flat at its maximum, the direction still improves
         if (norm_squared(move) < 1e-28) return best;

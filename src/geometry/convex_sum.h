@@ -16,6 +16,12 @@ struct Separation {
     double s = -1e300;
 };
 
+/// A separation and the point of the sum furthest along its direction.
+struct Touching : Separation {
+    Vec3 support;
+    Vec3 first;  // the first shape's share of it
+};
+
 class ConvexSum {
   public:
     static constexpr bool kSymmetric = true;
@@ -29,9 +35,10 @@ class ConvexSum {
     double overlap_gap() const { return 1e-6; }
     double reach(const Vec3& n) const;  // h(n), n need not be a unit vector
     Vec3 support(const Vec3& n) const;
-    Vec3 support(const Vec3& n, Vec3& first) const;  // also the first shape's share of it
-    ConvexSum moved(const Vec3& by) const;           // the first shape moved
+    ConvexSum moved(const Vec3& by) const;  // the first shape moved
     Separation separation(const Vec3& n) const { return {n, dot(n, centre_) - reach(n)}; }
+    /// separation() and support() at once, bit for bit.
+    Touching touching(const Vec3& n) const;
 
     /// The best of the directions in which flat facets of the sum can look (and some round ones), or the
     /// first that separates by more than `enough`.
@@ -48,9 +55,10 @@ class ConvexSum {
         double radius = 0;
     };
     void add(const Posed& shape);
-    double rounding() const;                           // differences of s below it are noise
-    Separation climb(Vec3 n, const Vec3* edge) const;  // Newton, perpendicular to the edge if one is given
-    bool rises(const Vec3& n, const Vec3& d) const;    // s grows from n towards d or -d
+    double rounding() const;  // differences of s below it are noise
+    /// Newton's method, perpendicular to the edge if one is given.
+    Separation climb(const Vec3& start, const Vec3* edge) const;
+    bool rises(const Vec3& n, const Vec3& d) const;  // s grows from n towards d or -d
     void climb_beside(const Vec3& n, const Vec3& d, const Vec3* edge, Separation& best) const;
     Separation better(const Separation& best, const Separation& found) const;
 

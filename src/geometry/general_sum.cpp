@@ -20,15 +20,17 @@ double GeneralSum::rounding() const {
     return 2e-15 * (std::fabs(centre_.x) + std::fabs(centre_.y) + std::fabs(centre_.z) + inradius());
 }
 
-bool GeneralSum::newton_step(const Vec3& n, const Vec3* edge, Vec3& move) const {
+bool GeneralSum::newton_step(const Touching& at, const Vec3* edge, Vec3& move) const {
+    if (!curved() && !(at.s > 0.0)) return false;
+    const Vec3& n = at.n;
     Vec3 t1, t2;
     if (edge != nullptr) {
         t1 = cross(*edge, n);
     } else {
         tangents(n, t1, t2);
     }
-    const Vec3 gap = centre_ - support(n);
-    const double s = dot(n, gap), g1 = dot(t1, gap), g2 = dot(t2, gap);
+    const Vec3 gap = centre_ - at.support;
+    const double s = at.s, g1 = dot(t1, gap), g2 = dot(t2, gap);
     double h11 = s, h12 = 0.0, h22 = s;
     if (!a_->add_curvature(-n, t1, t2, h11, h12, h22) || !b_->add_curvature(n, t1, t2, h11, h12, h22))
         return false;
@@ -43,15 +45,15 @@ bool GeneralSum::newton_step(const Vec3& n, const Vec3* edge, Vec3& move) const 
     return norm_squared(move) < 1.0;
 }
 
-Separation GeneralSum::climb(Vec3 n, const Vec3* edge) const {
-    Separation best = separation(n);
+Separation GeneralSum::climb(const Vec3& start, const Vec3* edge) const {
+    Touching best = touching(start);
     for (int step = 0; step < kNewtonSteps; ++step) {
         Vec3 move;
-        if (!newton_step(best.n, edge, move)) return best;
-        Separation found = separation(normalized(best.n + move));
+        if (!newton_step(best, edge, move)) return best;
+        Touching found = touching(normalized(best.n + move));
         for (int half = 0; half < 6 && !(found.s >= best.s - rounding()); ++half) {
             move = move * 0.5;
-            found = separation(normalized(best.n + move));
+            found = touching(normalized(best.n + move));
         }
         if (!(found.s >= best.s - rounding())) return best;
         best = found;  // also when equal: the gap is flat at its maximum, the direction still improves
@@ -80,8 +82,8 @@ Separation GeneralSum::polished_once(const Separation& start) const {
     const NearFeatures of_a = a_->near(-n0, sine), of_b = b_->near(n0, sine);
     const bool climbs = curved() || start.s > 0.0;  // else the gap is piecewise flat: only corners count
     for (const NearFeatures* side : {&of_a, &of_b}) {
-        for (std::size_t i = 0; climbs && i < side->edge_count; ++i) {
-            const Vec3& e = side->edges[i];
+        if (!climbs) break;
+        for (const Vec3& e : side->edges) {
             const Vec3 n = normalized(n0 - e * dot(e, n0));
             if (curved()) {
                 for (const double step : {-kBeside, kBeside})
@@ -90,17 +92,17 @@ Separation GeneralSum::polished_once(const Separation& start) const {
             best = better(best, climb(n, &e));
         }
     }
-    for (std::size_t i = 0; i < of_a.edge_count; ++i) {
-        for (std::size_t j = 0; j < of_b.edge_count; ++j) {
-            const Vec3 direction = cross(of_a.edges[i], of_b.edges[j]);
+    for (const Vec3& edge_a : of_a.edges) {
+        for (const Vec3& edge_b : of_b.edges) {
+            const Vec3 direction = cross(edge_a, edge_b);
             const double length = norm(direction);
             if (length < 1e-3) continue;
             const Vec3 n = direction * (dot(direction, n0) < 0.0 ? -1.0 / length : 1.0 / length);
             if (dot(n, n0) > 0.9) best = better(best, separation(n));
         }
     }
-    for (std::size_t i = 0; i < of_a.normal_count; ++i) best = better(best, separation(-of_a.normals[i]));
-    for (std::size_t i = 0; i < of_b.normal_count; ++i) best = better(best, separation(of_b.normals[i]));
+    for (const Vec3& normal : of_a.normals) best = better(best, separation(-normal));
+    for (const Vec3& normal : of_b.normals) best = better(best, separation(normal));
     // Beside the face of a cylinder's cap the rim may be better still.
     if (curved()) best = better(climb(normalized(best.n + n0 * kBeside), nullptr), best);
     return best;

@@ -21,11 +21,12 @@ class GeneralSum {
     double overlap_gap() const { return curved() ? 1e-4 : 1e-9; }
 
     Vec3 support(const Vec3& n) const { return b_->support(n) - a_->support(-n); }
-    Vec3 support(const Vec3& n, Vec3& first) const {
-        first = -a_->support(-n);
-        return first + b_->support(n);
-    }
     Separation separation(const Vec3& n) const { return {n, dot(n, centre_ - support(n))}; }
+    /// separation() and support() at once, bit for bit.
+    Touching touching(const Vec3& n) const {
+        const Vec3 first = -a_->support(-n), x = first + b_->support(n);
+        return {{n, dot(n, centre_ - x)}, x, first};
+    }
     GeneralSum moved(const Vec3& by) const {
         GeneralSum sum = *this;
         sum.centre_ += by;
@@ -43,8 +44,8 @@ class GeneralSum {
     Separation better(const Separation& best, const Separation& found) const {
         return found.s >= best.s - rounding() ? found : best;
     }
-    Separation climb(Vec3 n, const Vec3* edge) const;
-    bool newton_step(const Vec3& n, const Vec3* edge, Vec3& move) const;
+    Separation climb(const Vec3& start, const Vec3* edge) const;
+    bool newton_step(const Touching& at, const Vec3* edge, Vec3& move) const;
 
     const ConvexBody* a_;
     const ConvexBody* b_;

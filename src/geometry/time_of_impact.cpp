@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "geometry/closest_direction.h"
+#include "geometry/closest_point.h"
 #include "geometry/collide_general.h"
 
 namespace roboss {
@@ -15,7 +17,8 @@ constexpr int kStepsMax = 2000;
 constexpr double kLeastAdvance = 2e-4;  // m: no step is shorter, what sinks in less deep may be missed
 constexpr double kGlide = 2e-3;         // m: from touch to touch, where nothing sinks in
 constexpr int kHalvings = 10;
-constexpr double kSameNormal = 0.98;                   // cosine
+constexpr int kParts = 16;            // of the tick, in which bodies are proven to stay apart
+constexpr double kSameNormal = 0.98;  // cosine
 constexpr double kSameSlope = 0.2, kSamePlane = 1e-4;  // m
 
 bool is_held(const Manifold& m, std::span<const TouchedPlane> held, const Transform& X_WS) {
@@ -34,10 +37,89 @@ double closing_speed(const Course& a, const Course& b, const Vec3& n, double t, 
            0.5 * (a.bend(dt) + b.bend(dt)) * (dt - t);
 }
 
-/// `find(t)` gives the manifold at time t; `m` is that of the beginning, with points.
-template <class Find>
+/// Upper bound of the acceleration of a shape's points until dt.
+double most_acceleration(const Course& c, double dt) {
+    if (c.rests()) return 0;
+    const double rate = norm(c.angular_rate) + norm(c.angular_curve) * dt;
+    const double speed = norm(c.angular) + rate * dt;
+    return c.bend(dt) + (speed * speed + rate) * bounding_radius(*c.shape);
+}
+
+double ball_of(const Shape& s) {
+    return s.kind == ShapeKind::kSphere || s.kind == ShapeKind::kCapsule ? s.radius : 0.0;
+}
+
+/// A shape on its course.
+struct Placed {
+    Transform X;
+    Posed posed;
+    ConvexBody body;
+
+    Placed(const Course& c, double t) : X(c.at(t)), posed{*c.shape, X}, body(posed) {}
+    Placed(const Placed&) = delete;
+    Placed& operator=(const Placed&) = delete;
+    ~Placed() = default;
+};
+
+/// Looks for proof that two bodies stay further apart than what counts as touching. Spinning bodies come
+/// nearer by far less than closing_speed() must assume, so most pairs are proven at once.
+template <class SumAt>
+class Apartness {
+  public:
+    /// `sum_at(t, act)` calls act(sum) with the bodies' sum at time t, and returns what that does.
+    /// `acceleration`: of a point of one body relative to the other, at most.
+    Apartness(const SumAt& sum_at, double balls, double acceleration)
+        : sum_at_(sum_at), balls_(balls), acceleration_(acceleration) {}
+
+    /// Until dt, looked at in at most `parts` parts, a power of two. `start`: where the search for a
+    /// direction that separates begins.
+    bool is_proven(double dt, const Vec3& start, int parts) const {
+        return sum_at_(0, [&](const GeneralSum& begin) {
+            return sum_at_(
+                dt, [&](const GeneralSum& end) { return is_proven(begin, end, 0, dt, {start}, parts); });
+        });
+    }
+
+  private:
+    static constexpr double kProven = 1.5 * kImpactGap;  // more than the rounding of a manifold's gaps
+
+    /// From one time to another. The end first: bodies that meet overlap there.
+    bool is_proven(const GeneralSum& begin, const GeneralSum& end, double from, double to,
+                   const Separation& start, int parts) const {
+        // A point is off the chord of its course by an eighth of its acceleration.
+        const double enough = kProven + balls_ + acceleration_ * (to - from) * (to - from) / 8;
+        const SweptSum sum(begin, end);
+        Separation best = sum.touching(start.n);
+        if (best.s <= enough) best = closest_apart(sum, best, enough, enough).best;
+        if (best.s > enough || parts == 1) return best.s > enough;
+        const double between = 0.5 * (from + to);
+        return sum_at_(between, [&](const GeneralSum& middle) {
+            return is_proven(middle, end, between, to, best, parts / 2) &&
+                   is_proven(begin, middle, from, between, best, parts / 2);
+        });
+    }
+
+    const SumAt& sum_at_;
+    double balls_, acceleration_;
+};
+
+bool stay_apart(const Course& a, const Course& b, double dt, const Vec3& n, int parts) {
+    if (a.shape->kind == ShapeKind::kPlane || b.shape->kind == ShapeKind::kPlane) return false;
+    const auto sum_at = [&](double t, const auto& act) {
+        const Placed there_a(a, t), there_b(b, t);
+        return act(GeneralSum(there_a.body, there_b.body));
+    };
+    const double acceleration = most_acceleration(a, dt) + most_acceleration(b, dt);
+    return Apartness(sum_at, ball_of(*a.shape) + ball_of(*b.shape), acceleration).is_proven(dt, n, parts);
+}
+
+/// `find(t)` gives the manifold at time t; `m` is that of the beginning, with points. stays_apart(n) looks
+/// for proof that nothing is met, beginning at n: it is far cheaper than the steps of a near miss.
+template <class Find, class StaysApart>
 std::optional<double> advance(const Course& a, const Course& b, double dt, double deep, Manifold& m,
-                              Find&& find) {
+                              const Find& find, const StaysApart& stays_apart) {
+    if (m.count == 0 || closing_speed(a, b, m.n_W, 0, dt) * dt <= least_gap(m) + deep) return {};
+    if (least_gap(m) > kImpactGap && stays_apart(m.n_W)) return {};
     double t = 0;
     for (int i = 0; i < kStepsMax && m.count > 0; ++i) {
         const double gap = least_gap(m), closing = closing_speed(a, b, m.n_W, t, dt);
@@ -72,7 +154,12 @@ std::optional<double> advance(const Course& a, const Course& b, double dt, doubl
 class TriangleSweep {
   public:
     TriangleSweep(const Course& course, const TriangleSurface& surface, double dt, double deep, double margin)
-        : course_(course), surface_(surface), dt_(dt), deep_(deep), margin_(margin) {}
+        : course_(course),
+          surface_(surface),
+          dt_(dt),
+          deep_(deep),
+          margin_(margin),
+          acceleration_(most_acceleration(course, dt)) {}
 
     /// `m` becomes the manifold of the impact.
     std::optional<double> impact(std::uint32_t number, Manifold& m) const {
@@ -89,10 +176,19 @@ class TriangleSweep {
         const double over = height - body.reach(-triangle.n) - body.ball();
         if (over > closing_speed(course_, still, triangle.n, 0, dt_) * dt_) return {};
         const ConvexBody sheet(triangle.v, triangle.n);
+        const auto sum_at = [&](double t, const auto& act) {
+            const Placed there(course_, t);
+            return act(GeneralSum(there.body, sheet));
+        };
+        const Apartness apartness(sum_at, body.ball(), acceleration_);
+        const Vec3 away = body.centre() - closest_point(triangle.v, body.centre());
+        const double distance = norm(away);
+        if (apartness.is_proven(dt_, distance > 0 ? away / distance : triangle.n, 1)) return {};
         const auto find = [&](double t) { return manifold(sheet, course_.at(t)); };
         m = find(0);
         if (m.count == 0 || least_gap(m) <= kImpactGap) return {};
-        const auto met = advance(course_, still, dt_, deep_, m, find);
+        const auto met = advance(course_, still, dt_, deep_, m, find,
+                                 [&](const Vec3& n) { return apartness.is_proven(dt_, n, kParts); });
         return met && dot(m.n_W, triangle.n) >= 0 ? met : std::nullopt;
     }
 
@@ -108,7 +204,7 @@ class TriangleSweep {
 
     const Course& course_;
     const TriangleSurface& surface_;
-    double dt_, deep_, margin_;
+    double dt_, deep_, margin_, acceleration_;
 };
 
 }  // namespace
@@ -129,10 +225,14 @@ double sinking(const Course& a, const Course& b, const Manifold& m, double t, do
     return deepest;
 }
 
+bool surely_pass(const Course& a, const Course& b, double dt, const Vec3& n) {
+    return stay_apart(a, b, dt, n, 1);
+}
+
 std::optional<double> time_of_impact(const Course& a, const Course& b, double dt, double deep, double margin,
                                      Manifold& m) {
-    return advance(a, b, dt, deep, m,
-                   [&](double t) { return collide(*a.shape, a.at(t), *b.shape, b.at(t), margin); });
+    const auto find = [&](double t) { return collide(*a.shape, a.at(t), *b.shape, b.at(t), margin); };
+    return advance(a, b, dt, deep, m, find, [&](const Vec3& n) { return stay_apart(a, b, dt, n, kParts); });
 }
 
 std::optional<double> time_of_impact(const Course& course, const TriangleSurface& surface,

@@ -375,23 +375,32 @@ void ContactFinder::find_pairs(std::span<const RobotWork> robots) {
                 if ((robots[j].asleep || j > i) && overlaps(robots[i].box, robots[j].box))
                     pairs_.push_back(std::minmax(i, j));
     } else {
-        sweep_along_x(robots);
+        find_pairs_by_strips(robots);
     }
-    std::sort(pairs_.begin(), pairs_.end());
+    sort_pairs(robots.size());
 }
 
-/// Sweep along x.
-void ContactFinder::sweep_along_x(std::span<const RobotWork> robots) {
-    by_x_.resize(robots.size());
-    for (std::size_t i = 0; i < robots.size(); ++i) by_x_[i] = static_cast<std::uint32_t>(i);
-    std::sort(by_x_.begin(), by_x_.end(), [&](std::uint32_t i, std::uint32_t j) {
-        return std::tuple(robots[i].box.min.x, i) < std::tuple(robots[j].box.min.x, j);
+void ContactFinder::find_pairs_by_strips(std::span<const RobotWork> robots) {
+    boxes_.clear();
+    for (const RobotWork& robot : robots) boxes_.push_back(robot.box);
+    strips_.for_each_overlap(boxes_, [&](std::uint32_t i, std::uint32_t j) {
+        if (!(robots[i].asleep && robots[j].asleep)) pairs_.push_back(std::minmax(i, j));
     });
-    for (std::size_t i = 0; i < by_x_.size(); ++i) {
-        const Aabb& box = robots[by_x_[i]].box;
-        for (std::size_t j = i + 1; j < by_x_.size() && robots[by_x_[j]].box.min.x <= box.max.x; ++j)
-            if (overlaps(box, robots[by_x_[j]].box) && !(robots[by_x_[i]].asleep && robots[by_x_[j]].asleep))
-                pairs_.push_back(std::minmax(by_x_[i], by_x_[j]));
+}
+
+/// By their first robot, which takes no comparison, then those of each by the second.
+void ContactFinder::sort_pairs(std::size_t robots) {
+    places_.assign(robots + 1, 0);
+    for (const RobotPair& pair : pairs_) ++places_[pair.first + 1];
+    for (std::size_t i = 0; i < robots; ++i) places_[i + 1] += places_[i];
+    sorted_.resize(pairs_.size());
+    for (const RobotPair& pair : pairs_) sorted_[places_[pair.first]++] = pair;
+    pairs_.swap(sorted_);
+    std::size_t first = 0;
+    for (std::size_t i = 0; i < robots; ++i) {
+        std::sort(pairs_.begin() + static_cast<std::ptrdiff_t>(first),
+                  pairs_.begin() + static_cast<std::ptrdiff_t>(places_[i]));
+        first = places_[i];
     }
 }
 

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/team.h"
+#include "physics/contact/box_strips.h"
 #include "physics/contact/surface_pair.h"
 #include "physics/dynamics/robot_work.h"
 
@@ -106,7 +107,8 @@ class ContactFinder {
                  std::size_t begin, std::size_t end, std::vector<Contact>& contacts);
     void find_together(const Model& model, std::span<RobotWork> robots, bool keep_reactions,
                        std::vector<Contact>& contacts, const Team& team);
-    void sweep_along_x(std::span<const RobotWork> robots);
+    void find_pairs_by_strips(std::span<const RobotWork> robots);
+    void sort_pairs(std::size_t robots);
     Course course(const Model& model, std::span<const RobotWork> robots, int robot, std::size_t shape);
     void meet_robot(const Model& model, std::span<const RobotWork> robots, std::size_t a, std::size_t b,
                     bool sweeps, std::vector<Contact>& contacts);
@@ -133,8 +135,12 @@ class ContactFinder {
     std::vector<double> first_hits_;         // by robot, s
     std::vector<std::uint32_t> candidates_;  // scenery near a robot, and its boxes
     std::vector<Aabb> candidate_boxes_;
-    std::vector<std::uint32_t> by_x_, awake_;
+    std::vector<std::uint32_t> awake_;
     std::vector<RobotPair> pairs_;  // sorted
+    std::vector<Aabb> boxes_;       // of the robots
+    BoxStrips strips_;
+    std::vector<std::uint32_t> places_;  // by robot: of its pairs, as they are sorted
+    std::vector<RobotPair> sorted_;
     // with a team: what each thread finds with, and what was found of each block of robots
     std::vector<ContactFinder> helpers_;
     std::vector<std::vector<Contact>> blocks_;

@@ -7,6 +7,7 @@
 
 #include "core/union_find.h"
 #include "math/aabb.h"
+#include "physics/contact/box_strips.h"
 
 namespace roboss {
 
@@ -17,14 +18,7 @@ class Meetings {
     void join(std::span<const Aabb> boxes, std::span<const std::uint32_t> wanted, UnionFind& sets);
 
   private:
-    void join_by_strips(std::span<const Aabb> boxes, UnionFind& sets);
-
-    struct Entry {
-        std::int64_t strip = 0;  // along y, as wide as the widest box
-        double min_x = 0;
-        std::uint32_t box = 0;
-    };
-    std::vector<Entry> entries_;
+    BoxStrips strips_;
     std::vector<std::uint32_t> reached_;
     std::vector<char> is_reached_;
 };

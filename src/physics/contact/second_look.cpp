@@ -148,6 +148,7 @@ void SecondLook::find_missed(const SolvedIsland& island, const NearMiss& pair) {
 bool SecondLook::add_first_hit(const SolvedIsland& island, const NearMiss& pair, const Course& a,
                                const Course& b) {
     const double dt = island.model.dt_s, margin = (speed_of(a) + speed_of(b)) * dt + 2 * kBaseMargin;
+    if (const Vec3 d = a.X.p - b.X.p; d != Vec3{} && surely_pass(a, b, dt, normalized(d))) return false;
     Manifold m = collide(*a.shape, a.X, *b.shape, b.X, margin);
     if (m.count == 0) return false;
     const auto t = time_of_impact(a, b, dt, kDeep, margin, m);
