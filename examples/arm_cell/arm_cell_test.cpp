@@ -169,6 +169,24 @@ TEST(ArmCells, AShortRunReportsItsCountsAtItsEnd) {
     std::filesystem::remove(file);
 }
 
+TEST(ArmCells, ARunOfSecondsReportsAllOfThem) {
+    const std::string file = ::testing::TempDir() + "roboss_cells_whole.json";
+    ::setenv("ROBOSS_CELLS_RESULT", file.c_str(), 1);
+    for (const char* every : {"1", "2", "600"}) {
+        std::filesystem::remove(file);
+        ::setenv("ROBOSS_CELLS_REPORT", every, 1);
+        auto one = cells(compiled(roboss::cell_sdf({1, "fingers"})), 1);
+        ASSERT_TRUE(one->run_until(roboss::Tick(std::llround(2 / one->model().dt_s))).ok());
+        one.reset();
+        std::string line;
+        std::getline(std::ifstream(file) >> std::ws, line);
+        EXPECT_TRUE(line.starts_with("{\"time_s\": 2, ")) << "every " << every << " s: " << line;
+    }
+    ::unsetenv("ROBOSS_CELLS_REPORT");
+    ::unsetenv("ROBOSS_CELLS_RESULT");
+    std::filesystem::remove(file);
+}
+
 TEST(ArmCells, AResultFileThatCannotBeWrittenEndsTheRunAtItsStart) {
     for (const char* variable : {"ROBOSS_CELLS_RESULT", "ROBOSS_CELLS_FEEDER_RESULT"}) {
         ::setenv(variable, "/no_such_folder/cells.json", 1);

@@ -123,7 +123,7 @@ void CellProgram::control_cell(roboss::Client& client, const Devices& devices, C
 }
 
 void CellProgram::report_all(double time_s) const {
-    std::string line = "{\"time_s\": " + std::to_string(static_cast<long>(time_s)) + ", \"cells\": [";
+    std::string line = "{\"time_s\": " + whole_seconds(time_s) + ", \"cells\": [";
     for (const Cell& cell : cells_)
         line += (&cell == cells_.data() ? "{" : ", {") + summary(cell.state) + "}";
     report(line + "]}", kResult);

@@ -129,8 +129,8 @@ void Feeder::report_all(double time_s) const {
     Stock sum;
     for (const Stock& stock : stocks_)
         sum.fed += stock.fed, sum.delivered += stock.delivered, sum.fallen += stock.fallen;
-    report("{\"time_s\": " + std::to_string(static_cast<long>(time_s)) +
-               ", \"fed\": " + std::to_string(sum.fed) + ", \"delivered\": " + std::to_string(sum.delivered) +
+    report("{\"time_s\": " + whole_seconds(time_s) + ", \"fed\": " + std::to_string(sum.fed) +
+               ", \"delivered\": " + std::to_string(sum.delivered) +
                ", \"fallen\": " + std::to_string(sum.fallen) + "}",
            kResult);
 }

@@ -1,5 +1,6 @@
 #include "reporting.h"
 
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <stdexcept>
@@ -7,6 +8,12 @@
 #include "../result_file.h"
 
 namespace arm_cell {
+
+namespace {
+
+constexpr double kRounding_s = 1e-6;  // of sums of periods
+
+}  // namespace
 
 double report_period_s() {
     const char* text = std::getenv("ROBOSS_CELLS_REPORT");
@@ -19,6 +26,7 @@ double report_period_s() {
 }
 
 bool Reports::is_due(double now_s) {
+    if (now_s_ > 0) step_s_ = now_s - now_s_;
     now_s_ = now_s;
     if (now_s < last_s + period_s_) return false;
     last_s += period_s_;
@@ -26,8 +34,10 @@ bool Reports::is_due(double now_s) {
 }
 
 std::optional<double> Reports::at_end() const {
-    if (has_reported_ || !(now_s_ > 0)) return std::nullopt;
-    return now_s_;
+    if (!(now_s_ > 0)) return std::nullopt;
+    const double end_s = now_s_ + step_s_;
+    if (has_reported_ && end_s + kRounding_s < last_s + period_s_) return std::nullopt;
+    return end_s;
 }
 
 void report(const std::string& line, const char* variable) {
@@ -42,6 +52,10 @@ void report_at_end(const std::function<void()>& report) noexcept {
     } catch (const std::exception& error) {
         std::fprintf(stderr, "%s\n", error.what());
     }
+}
+
+std::string whole_seconds(double time_s) {
+    return std::to_string(static_cast<long>(std::floor(time_s + kRounding_s)));
 }
 
 std::string exact(double value) {

@@ -11,19 +11,22 @@ namespace arm_cell {
 /// @throws std::runtime_error with a remedy.
 double report_period_s();
 
-/// When a program reports: every report_period_s(), and at the end of a run that was too short for a report.
+/// When a program reports: every report_period_s(), also at the end of a run that ends just then, and at the
+/// end of a run that was too short for a report.
 class Reports {
   public:
     void start() { period_s_ = report_period_s(); }
     /// Whether a report is due. Called at each control().
     bool is_due(double now_s);
-    /// The time of a report at the end, s; std::nullopt if there was one before, or no control() at all.
+    /// The time of a report at the end, s: a period behind the last control(), to which its orders applied.
+    /// std::nullopt if there was a report before and none is due yet, or no control() at all.
     std::optional<double> at_end() const;
 
     double last_s = 0;  // when the last one was due; part of a saved run
 
   private:
     double period_s_ = 0, now_s_ = 0;
+    double step_s_ = 0;  // between the last two control()
     bool has_reported_ = false;
 };
 
@@ -32,6 +35,9 @@ void report(const std::string& line, const char* variable);
 
 /// Reports from a destructor: what fails is printed, not thrown.
 void report_at_end(const std::function<void()>& report) noexcept;
+
+/// The time in whole seconds, as reports have it.
+std::string whole_seconds(double time_s);
 
 /// The number so that reading it gives the same bits.
 std::string exact(double value);

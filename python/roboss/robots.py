@@ -342,14 +342,17 @@ class Robots:
         if isinstance(key, str):
             facts = self._facts
             names = [name for name, _, _ in facts.sensors]
-            number = index_of("sensor", key, names, f" of '{facts.name}'")
-            kind = Radio if facts.sensors[number][1] == "radio" else Sensor
-            return kind(self, number, *facts.sensors[number])
+            return self._sensor(index_of("sensor", key, names, f" of '{facts.name}'"))
         chosen = np.atleast_1d(np.asarray(self.ids)[key])
         if self._simulations is not self.simulation._simulations:
             raise StateError("robots were spawned or removed since these were asked for",
                              "ask Simulation.robots() again", "changed-world")
         return Robots(self.simulation, [int(number) for number in chosen])
+
+    def _sensor(self, number: int) -> Sensor:
+        """The sensor of this number; of equal names `robots[name]` gives the first."""
+        facts = self._facts.sensors[number]
+        return (Radio if facts[1] == "radio" else Sensor)(self, number, *facts)
 
     def _link(self, name: str) -> int:
         return index_of("link", name, self._facts.links, f" of '{self._facts.name}'")

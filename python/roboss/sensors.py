@@ -80,6 +80,11 @@ class Sensor:
         boxed = self.kind == "box camera" and name in ("boxes", "positions", "orientations", "sizes")
         return not boxed or (name == "boxes") == (not self._is_3d)
 
+    def _beams(self) -> tuple[str, NDArray, NDArray, NDArray]:
+        """Of a laser: its link, its pose in the link (7,), the angles of columns and rows, rad."""
+        link, pose, columns, rows = _core.laser_beams(self.robots._simulations[0], int(self.robots.ids[0]), self._number)
+        return self.robots.links[link], np.array(pose), np.array(columns), np.array(rows)
+
     @property
     def _is_3d(self) -> bool:
         """Whether a box camera gives boxes in space."""

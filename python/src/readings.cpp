@@ -206,6 +206,20 @@ std::string box_type(const std::shared_ptr<Simulation>& simulation, std::uint32_
     return camera != nullptr ? camera->type : "";
 }
 
+/// Of a laser: its link, its pose in the link (p, then the quaternion x y z w), the angles of its columns and
+/// rows, rad.
+nb::tuple laser_beams(const std::shared_ptr<Simulation>& simulation, std::uint32_t robot,
+                      std::size_t sensor) {
+    const SensorInfo& info = simulation->access().model().type_of(RobotId(robot)).sensors[sensor];
+    const auto* laser = info.spec.as<LaserSpec>();
+    if (laser == nullptr) return nb::make_tuple();
+    const Vec3& p = info.spec.X_LS.p;
+    const Quat& q = info.spec.X_LS.q;
+    return nb::make_tuple(static_cast<std::size_t>(info.link.index()),
+                          std::vector<double>{p.x, p.y, p.z, q.x, q.y, q.z, q.w}, laser->column_angles(),
+                          laser->row_angles());
+}
+
 }  // namespace
 
 void bind_readings(nb::module_& module) {
@@ -214,6 +228,7 @@ void bind_readings(nb::module_& module) {
                nb::arg("payloads"), nb::arg("to"));
     module.def("received", &received, nb::arg("simulations"), nb::arg("robots"), nb::arg("sensor"));
     module.def("box_type", &box_type, nb::arg("simulation"), nb::arg("robot"), nb::arg("sensor"));
+    module.def("laser_beams", &laser_beams, nb::arg("simulation"), nb::arg("robot"), nb::arg("sensor"));
 }
 
 }  // namespace roboss_python

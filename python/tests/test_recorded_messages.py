@@ -162,3 +162,64 @@ def test_row_groups_bound_what_parquet_holds(tmp_path, monkeypatch):
     assert pyarrow.parquet.ParquetFile(tmp_path / "run.parquet").num_row_groups == 6
     straight = analysis.record(CROSSROADS, "car_*.pose", until=0.5)
     assert analysis.read(tmp_path / "run.parquet").values.tobytes() == straight.values.tobytes()
+
+
+TWO_EYES = """<sdf version="1.9"><world name="two_eyes"><model name="post"><link name="low">
+  <sensor name="eye" type="lidar"><lidar><scan><horizontal><samples>3</samples><min_angle>-0.5</min_angle><max_angle>0.5</max_angle>
+    </horizontal></scan><range><min>0.1</min><max>20</max></range></lidar></sensor>
+  <sensor name="touch" type="contact"><contact><collision>body</collision></contact></sensor>
+  <collision name="body"><geometry><sphere><radius>0.05</radius></sphere></geometry></collision></link>
+  <link name="high"><pose>0 0 2 0 0 3.14159265</pose>
+  <sensor name="eye" type="lidar"><lidar><scan><horizontal><samples>3</samples><min_angle>-0.5</min_angle><max_angle>0.5</max_angle>
+    </horizontal></scan><range><min>0.1</min><max>20</max></range></lidar></sensor>
+  <sensor name="touch" type="contact"><contact><collision>body</collision></contact></sensor>
+  <collision name="body"><geometry><sphere><radius>0.05</radius></sphere></geometry></collision></link>
+  <joint name="rod" type="fixed"><parent>low</parent><child>high</child></joint></model>
+  <model name="wall"><static>true</static><pose>-3 0 2 0 0 0</pose><link name="link"><collision name="c"><geometry><box>
+    <size>1 9 1</size></box></geometry></collision></link></model></world></sdf>"""
+
+
+def test_sensors_of_equal_names_are_all_recorded(tmp_path):
+    world = tmp_path / "two_eyes.sdf"
+    world.write_text(TWO_EYES)
+    done = analysis.record_file(world, tmp_path / "run.parquet", ["post.eye*.ranges", "post.touch*.reading"], until=0.01)
+    assert done.variables == ["post.eye.ranges", "post.eye_2.ranges", "post.touch.reading", "post.touch_2.reading"]
+    first = rows_of(tmp_path / "run.parquet")[0]
+    assert first["post.eye.ranges.1"] == np.inf and first["post.eye_2.ranges.1"] == pytest.approx(2.5, abs=1e-6)
+
+
+def test_a_scan_of_one_row_is_a_laser_scan_at_its_place_in_the_world(tmp_path):
+    world = tmp_path / "two_eyes.sdf"
+    world.write_text(TWO_EYES)
+    analysis.record_file(world, tmp_path / "run.mcap", "post.eye*.scan", until=0.01)
+    topics = messages_of(tmp_path / "run.mcap")
+    assert {schema for schema, _ in topics.values()} == {"foxglove.LaserScan"}
+    low, high = (topics[f"/post/{name}/scan"][1][0][1] for name in ("eye", "eye_2"))
+    assert low["frame_id"] == high["frame_id"] == "world" and low["ranges"] == [None, None, None]
+    assert (high["start_angle"], high["end_angle"]) == (-0.5, 0.5) and high["ranges"][1] == pytest.approx(2.5, abs=1e-6)
+    assert list(high["pose"]["position"].values()) == pytest.approx([0, 0, 2])
+    assert list(high["pose"]["orientation"].values()) == pytest.approx([0, 0, 1, 0], abs=1e-6)  # to the wall behind
+
+
+@pytest.mark.parametrize("suffix", ["mcap", "parquet"])
+def test_a_scan_of_many_rows_is_a_cloud_of_the_points_it_meets(tmp_path, suffix):
+    path = tmp_path / f"run.{suffix}"
+    analysis.record_file(CAMERAS, path, ["rover.scan.points", "rover.x"], until=0.05, every=0.05)
+    sim = roboss.Simulation(CAMERAS)
+    sim.step(round(0.05 / sim.dt))
+    ranges = sim.robots("rover")["scan"].read_all()["ranges"][0]
+    if suffix == "mcap":
+        schema, messages = messages_of(path)["/rover/scan/points"]
+        cloud = messages[1][1]
+        assert schema == "foxglove.PointCloud" and cloud["frame_id"] == "world"
+        cloud["data"] = base64.b64decode(cloud["data"])
+    else:
+        cloud = rows_of(path)[1]["rover.scan.points"]
+    names = [field["name"] for field in cloud["fields"]]
+    assert names[:3] == ["x", "y", "z"] and [field["offset"] for field in cloud["fields"]] == [4 * n for n in range(len(names))]
+    points = np.frombuffer(cloud["data"], dtype="<f4").reshape(-1, cloud["point_stride"] // 4)[:, :3]
+    met = np.isfinite(ranges)
+    assert np.linalg.norm(points, axis=1) == pytest.approx(ranges[met], rel=1e-5) and met.any()
+    where, turn = (np.array(list(cloud["pose"][part].values())) for part in ("position", "orientation"))
+    placed = where + points + 2 * np.cross(turn[:3], np.cross(turn[:3], points) + turn[3] * points)
+    assert placed[:, 2].min() == pytest.approx(0, abs=0.05)  # the lowest beams meet the ground

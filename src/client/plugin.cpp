@@ -7,6 +7,7 @@
 #include <filesystem>
 
 #include "client/user_code.h"
+#include "core/error_text.h"
 
 namespace roboss {
 
@@ -53,8 +54,8 @@ Result<std::unique_ptr<ControlProgram>> load_control_program(const std::string& 
         if (program) return program;
         return Error{"control program " + path + ": its entry point gave nothing", kRemedy};
     } catch (const std::exception& e) {
-        return Error{"control program " + path + ": its constructor threw: " + e.what(),
-                     "fix the control program"};
+        return error_of_text("control program " + path + ": its constructor threw: ", e.what(),
+                             "fix the control program", "");
     } catch (...) {
         return Error{"control program " + path + ": its constructor threw something",
                      "fix the control program"};

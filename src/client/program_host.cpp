@@ -6,6 +6,7 @@
 #include <exception>
 
 #include "client/user_code.h"
+#include "core/error_text.h"
 
 namespace roboss {
 namespace {
@@ -19,8 +20,8 @@ Result<ControlOptions> options_of(const ControlProgram& program, const std::stri
         why = e.what();
     } catch (...) {
     }
-    return Error{"options() of control program '" + name + "' threw: " + why,
-                 "fix it, or do in start() what may fail", "client-failed"};
+    return error_of_text("options() of control program '" + name + "' threw: ", why,
+                         "fix it, or do in start() what may fail", "client-failed");
 }
 
 }  // namespace

@@ -6,6 +6,8 @@
 #include <memory>
 #include <string>
 
+#include "core/error_text.h"
+
 namespace roboss {
 namespace {
 
@@ -32,6 +34,13 @@ TEST(Result, MovesOutWhatCannotBeCopied) {
     Result<std::unique_ptr<int>> result(std::make_unique<int>(3));
     const std::unique_ptr<int> taken = std::move(result).value();
     EXPECT_EQ(*taken, 3);
+}
+
+TEST(ErrorOfText, TakesTheRemedyOfTheTextBeforeItsOwn) {
+    const Error with = error_of_text("it threw: ", Error{"7 is odd", "give 8"}.text(), "mend it", "failed");
+    EXPECT_EQ(with.text(), "it threw: 7 is odd [failed]\n  remedy: give 8");
+    const Error without = error_of_text("it threw: ", "7 is odd", "mend it", "failed");
+    EXPECT_EQ(without.text(), "it threw: 7 is odd [failed]\n  remedy: mend it");
 }
 
 TEST(ResultDeathTest, TakingTheValueOfAnErrorEndsTheProgramWithTheReason) {

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "client/user_code.h"
+#include "core/error_text.h"
 
 namespace roboss {
 namespace {
@@ -216,7 +217,8 @@ bool DeviceRun::guarded(const char* what, double now_s, Call&& call) {
         why = e.what();
     } catch (...) {
     }
-    fail({std::string(what) + " threw: " + why, "", "client-failed"}, now_s);
+    fail(error_of_text(std::string(what) + " threw: ", why, "fix the control program", "client-failed"),
+         now_s);
     return false;
 }
 

@@ -47,6 +47,9 @@ class Faults(RobossTest):
                 self.assertEqual(done.returncode, 3, done.stderr)
                 for word in (*words, Path(PROGRAM).name):
                     self.assertIn(word, done.stderr)
+                self.assertEqual(done.stderr.count("threw"), 1, "once: " + done.stderr)
+                why = done.stderr.partition("threw")[2]
+                self.assertEqual(why.count("remedy:"), 1, "the program's own, if it has one: " + done.stderr)
 
     def test_options_that_throw_are_an_error_before_the_run(self):
         done = self.run_with("options")

@@ -1,5 +1,7 @@
 """Runs the roboss command for tests. Arguments of a test script: ROBOSS CITY_DRIVER WORLDS_FOLDER."""
 import json
+import os
+import pty
 import subprocess
 import sys
 import tempfile
@@ -14,6 +16,26 @@ FOLDER = Path(tempfile.mkdtemp(prefix="roboss_test_"))
 def roboss(*arguments):
     """The finished process; its output is text."""
     return subprocess.run([ROBOSS, *map(str, arguments)], capture_output=True, text=True, timeout=600)
+
+
+def on_terminal(*arguments):
+    """What the command prints on a terminal; fails if it does."""
+    ours, its = pty.openpty()
+    with subprocess.Popen([ROBOSS, *map(str, arguments)], stdout=its, stderr=its, close_fds=True) as process:
+        os.close(its)
+        text = b""
+        while True:
+            try:
+                part = os.read(ours, 4096)
+            except OSError:  # the other end is closed
+                break
+            if not part:
+                break
+            text += part
+        os.close(ours)
+        if process.wait(600) != 0:
+            raise AssertionError(f"roboss {arguments} ended with {process.returncode}:\n{text.decode()}")
+    return text.decode()
 
 
 def summary(*arguments):

@@ -5,7 +5,7 @@ import struct
 import unittest
 
 from png import read_png
-from running import FOLDER, WORLDS, RobossTest, roboss, summary
+from running import FOLDER, WORLDS, RobossTest, on_terminal, roboss, summary
 
 WORLD = WORLDS / "cameras.sdf"
 
@@ -35,6 +35,13 @@ class Sense(RobossTest):
         data = sensed("scan", "scan.npy").read_bytes()
         self.assertEqual(data[:6], b"\x93NUMPY")
         self.assertIn(b"'shape': (5760, )", data)
+
+    def test_a_long_way_to_the_reading_shows_its_progress_on_a_terminal(self):
+        for quiet, shown in ((), True), (("--quiet",), False):
+            with self.subTest(quiet=quiet):
+                text = on_terminal("sense", WORLDS / "city.sdf", "--robot", "car_0", "--sensor", "gps", "--at", 1200, "-o",
+                                   FOLDER / "far.csv", *quiet)
+                self.assertEqual("50 robots  50 islands" in text, shown, text)
 
     def test_a_picture_is_red_where_the_camera_puts_blue_first_too(self):
         text = WORLD.read_text()

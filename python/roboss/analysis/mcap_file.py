@@ -1,7 +1,7 @@
 """Recordings as MCAP: a channel for each variable with JSON messages and their JSON Schema, so Foxglove shows them.
 
-Poses are messages of foxglove.PoseInFrame, which 3D panels draw, images those of foxglove.RawImage. The facts of a
-recording are the metadata "roboss".
+Poses are messages of foxglove.PoseInFrame, which 3D panels draw, images those of foxglove.RawImage, scans of lasers those
+of foxglove.LaserScan or PointCloud. The facts of a recording are the metadata "roboss".
 """
 from __future__ import annotations
 
@@ -23,10 +23,14 @@ _POSE = (("pose", "position", "x"), ("pose", "position", "y"), ("pose", "positio
          ("pose", "orientation", "y"), ("pose", "orientation", "z"), ("pose", "orientation", "w"))
 _NUMBER, _WHOLE, _TEXT = {"type": "number"}, {"type": "integer"}, {"type": "string"}
 _VECTOR = {"type": "object", "properties": {axis: _NUMBER for axis in "xyz"}}
+_TURN = {"type": "object", "properties": {axis: _NUMBER for axis in "xyzw"}}
 _STAMP = {"type": "object", "title": "time", "properties": {"sec": _WHOLE, "nsec": _WHOLE}}
 #: JSON Schemas of the types of fields (messages.Layout).
 _TYPES: dict[str, dict[str, Any]] = {
     "text": _TEXT, "whole": _WHOLE, "number": _NUMBER, "vector": _VECTOR,
+    "pose": {"type": "object", "title": "foxglove.Pose", "properties": {"position": _VECTOR, "orientation": _TURN}},
+    "packed fields": {"type": "array", "items": {"type": "object", "title": "foxglove.PackedElementField", "properties": {
+        "name": _TEXT, "offset": _WHOLE, "type": _WHOLE}}},
     "bytes": {"type": "string", "contentEncoding": "base64"}, "texts": {"type": "array", "items": _TEXT},
     "numbers": {"type": "array", "items": _NUMBER}, "rows": {"type": "array", "items": {"type": "array", "items": _NUMBER}}}
 
@@ -113,10 +117,8 @@ class _Channel:
         if not self.is_pose:
             return {"type": "object", "properties": {path[0]: {"type": "number", "description": column.unit}
                                                      for path, column in zip(self.paths, columns)}}
-        turn = {"type": "object", "properties": {axis: _NUMBER for axis in "xyzw"}}
         return {"title": "foxglove.PoseInFrame", "type": "object", "properties": {
-            "timestamp": _STAMP, "frame_id": _TEXT,
-            "pose": {"type": "object", "title": "foxglove.Pose", "properties": {"position": _VECTOR, "orientation": turn}}}}
+            "timestamp": _STAMP, "frame_id": _TEXT, "pose": _TYPES["pose"]}}
 
     def message(self, row: Any, stamp: int) -> bytes:
         """The bytes of the message of a row."""

@@ -1,5 +1,5 @@
 """What is recorded as messages, because it is no fixed list of numbers: contacts, images, what radios heard, readings
-whose length changes."""
+whose length changes; and laser scans, so that viewers draw them."""
 from __future__ import annotations
 
 from dataclasses import dataclass, field
@@ -20,6 +20,10 @@ _CONTACT = {"robot_a": "text", "link_a": "text", "robot_b": "text", "link_b": "t
             "normal": "vector", "gap": "number", "force": "vector", "torque": "vector"}
 _CONTACT_UNITS = {"position": "m", "gap": "m", "force": "N", "torque": "N m"}
 _IMAGE = {"height": "whole", "width": "whole", "encoding": "text", "step": "whole", "data": "bytes"}
+_SCAN = {"pose": "pose", "start_angle": "number", "end_angle": "number", "ranges": "numbers", "intensities": "numbers"}
+_SCAN_UNITS = {"start_angle": "rad", "end_angle": "rad", "ranges": "m"}
+_CLOUD = {"pose": "pose", "point_stride": "whole", "fields": "packed fields", "data": "bytes"}
+_FLOAT32 = 7  # among the numeric types of foxglove.PackedElementField
 _HEARD = {"sender": "text", "sent": "number", "arrived": "number", "strength": "number", "payload": "bytes"}
 _HEARD_UNITS = {"sent": "s", "arrived": "s", "strength": "dBm"}
 _Read = Callable[[Robots, float], list]
@@ -31,8 +35,9 @@ class Layout:
 
     Attributes:
         name: of its schema: "foxglove.RawImage", "roboss.Contacts".
-        fields: type of each field: "text", "whole", "number", "bytes", "vector" (x y z), or a list: "texts", "numbers",
-            "rows" (a list of lists of numbers).
+        fields: type of each field: "text", "whole", "number", "bytes", "vector" (x y z), "pose" (a vector "position", a
+            quaternion "orientation"), or a list: "texts", "numbers", "rows" (a list of lists of numbers), "packed fields"
+            (the columns of binary data: "name", "offset", "type").
         units: of fields.
         listed: the message is a list of such things, under this name; "": it is one.
     """
@@ -90,11 +95,26 @@ WORLD_CONTACTS = MessageVariable("contact_points", _CONTACTS)
 def kinds_of(robots: Robots) -> list[MessageKind]:
     """What the robots of a type give as messages."""
     kinds = [MessageKind("contact_points", _CONTACTS, _contacts_of_robots)]
-    for name in dict.fromkeys(robots.sensors):  # of equal names the first
-        sensor = robots[:1][name]
-        if isinstance(sensor, Sensor) and any(word in sensor.kind for word in AS_MESSAGES):
+    for number, name in enumerate(sensor_names(robots)):
+        sensor = robots[:1]._sensor(number)
+        if any(word in sensor.kind for word in AS_MESSAGES):
             kinds += _of_sensor(name, sensor)
+        elif sensor.kind == "laser":
+            kinds.append(_of_laser(name, sensor))
     return kinds
+
+
+def sensor_names(robots: Robots) -> list[str]:
+    """A name of its own for each sensor: of equal ones the second gets `_2`, the third `_3`, as their topics do.
+
+    A robot whose links have a sensor "scan" each, one of them with a "scan_2" besides, records "scan", "scan_2", "scan_3".
+    """
+    names: list[str] = []
+    for name in robots.sensors:
+        numbered = (f"{name}_{number}" for number in range(2, len(robots.sensors) + 2))
+        taken = {*names, *robots.sensors}
+        names.append(name if name not in names else next(new for new in numbered if new not in taken))
+    return names
 
 
 def contacts_of(run: Run) -> list[dict[str, Any]]:
@@ -136,17 +156,72 @@ def _of_sensor(name: str, sensor: Sensor) -> list[MessageKind]:
         reading, units = sensor.read_all(), sensor.units
     except SensorError:  # it cannot measure in this world
         return []
+    number = sensor._number
     if sensor.kind == "radio":
         return [MessageKind(f"{name}.messages", Layout("roboss.RadioMessages", _HEARD, _HEARD_UNITS, "messages"),
-                            lambda r, since: _heard(r[name], since), longest=_LONGEST_RADIO_PAUSE)]
+                            lambda r, since: _heard(r._sensor(number), since), longest=_LONGEST_RADIO_PAUSE)]
     images = [value for value, array in reading.items() if _encoding(array)]
-    kinds = [MessageKind(f"{name}.{value}", Layout("foxglove.RawImage", _IMAGE), _image_reader(name, value), True)
+    kinds = [MessageKind(f"{name}.{value}", Layout("foxglove.RawImage", _IMAGE), _image_reader(number, value), True)
              for value in images]
     if not images:
         fields = {value: _type_of(array[0]) for value, array in reading.items()}
         layout = Layout("roboss." + "".join(word.capitalize() for word in sensor.kind.split()), fields, units)
-        kinds.append(MessageKind(f"{name}.reading", layout, lambda r, _: _readings(r[name]), "camera" in sensor.kind))
+        kinds.append(MessageKind(f"{name}.reading", layout, lambda r, _: _readings(r._sensor(number)), "camera" in sensor.kind))
     return kinds
+
+
+def _of_laser(name: str, laser: Sensor) -> MessageKind:
+    """A scan of one row with even angles, or else a cloud of the points that the beams meet. Its pose is in the world, so
+    that it is drawn in place without the frames of the robot."""
+    link, mounted, columns, rows = laser._beams()
+    number = laser._number
+
+    def poses(robots: Robots) -> list[dict[str, Any]]:
+        return [_pose(composed(pose, mounted)) for pose in robots.link_pose(link)]
+
+    def intensities(values: Mapping[str, Any], robot: int) -> np.ndarray:
+        return np.asarray(values["intensities"][robot] if "intensities" in values else [], dtype=float)
+
+    def scans(robots: Robots, _: float) -> list[dict[str, Any]]:
+        values = robots._sensor(number).read_all()
+        return [{"pose": pose, "start_angle": float(columns[0]), "end_angle": float(columns[-1]),
+                 "ranges": values["ranges"][robot].tolist(), "intensities": intensities(values, robot).tolist()}
+                for robot, pose in enumerate(poses(robots))]
+
+    def clouds(robots: Robots, _: float) -> list[dict[str, Any]]:
+        values = robots._sensor(number).read_all()
+        return [_cloud(pose, values["ranges"][robot], directions, intensities(values, robot))
+                for robot, pose in enumerate(poses(robots))]
+
+    if len(rows) == 1 and rows[0] == 0 and np.allclose(np.diff(columns, 2), 0):
+        return MessageKind(f"{name}.scan", Layout("foxglove.LaserScan", _SCAN, _SCAN_UNITS), scans)
+    across, up = np.meshgrid(columns, rows)
+    directions = np.stack([np.cos(up) * np.cos(across), np.cos(up) * np.sin(across), np.sin(up)], axis=-1).reshape(-1, 3)
+    return MessageKind(f"{name}.points", Layout("foxglove.PointCloud", _CLOUD), clouds)
+
+
+def _cloud(pose: dict[str, Any], ranges: np.ndarray, directions: np.ndarray, intensities: np.ndarray) -> dict[str, Any]:
+    """A foxglove.PointCloud of the beams that met something."""
+    met = np.isfinite(ranges)
+    points = (ranges[:, None] * directions)[met]
+    names = ["x", "y", "z"]
+    if intensities.size:
+        names.append("intensity")
+        points = np.column_stack([points, intensities[met]])
+    fields = [{"name": field, "offset": 4 * place, "type": _FLOAT32} for place, field in enumerate(names)]
+    return {"pose": pose, "point_stride": 4 * len(names), "fields": fields, "data": points.astype("<f4").tobytes()}
+
+
+def composed(outer: np.ndarray, inner: np.ndarray) -> np.ndarray:
+    """The pose `inner`, given in the axes of `outer`, where `outer` is given: (7,) each, x y z and a quaternion x y z w."""
+    u, w, v, s = outer[3:6], outer[6], inner[3:6], inner[6]
+    turned = inner[:3] + 2 * np.cross(u, np.cross(u, inner[:3]) + w * inner[:3])
+    return np.concatenate([outer[:3] + turned, w * v + s * u + np.cross(u, v), [w * s - u @ v]])
+
+
+def _pose(pose: np.ndarray) -> dict[str, Any]:
+    numbers = pose.tolist()
+    return {"position": dict(zip("xyz", numbers[:3])), "orientation": dict(zip("xyzw", numbers[3:]))}
 
 
 def _encoding(array: Any) -> str:
@@ -154,9 +229,9 @@ def _encoding(array: Any) -> str:
     return _IMAGES.get((array.dtype.name, array.ndim - 1), "") if isinstance(array, np.ndarray) else ""
 
 
-def _image_reader(name: str, value: str) -> _Read:
+def _image_reader(number: int, value: str) -> _Read:
     def read(robots: Robots, _: float) -> list[dict[str, Any]]:
-        array = robots[name].read_all()[value]
+        array = robots._sensor(number).read_all()[value]
         encoding = _encoding(array)
         return [{"height": image.shape[0], "width": image.shape[1], "encoding": encoding, "step": image.strides[0],
                  "data": image.tobytes()} for image in np.ascontiguousarray(array)]

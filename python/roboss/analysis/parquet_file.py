@@ -19,8 +19,14 @@ from .recording import Column, Recording
 
 _GROUP_BYTES = 64 << 20  # of a row group, which is held in memory
 _GROUP_ROWS = 1 << 17    # at most
+def _numbers_of(names: str) -> pyarrow.DataType:
+    return pyarrow.struct([(name, pyarrow.float64()) for name in names])
+
+
 _TYPES = {"text": pyarrow.string(), "whole": pyarrow.int64(), "number": pyarrow.float64(), "bytes": pyarrow.binary(),
-          "vector": pyarrow.struct([(axis, pyarrow.float64()) for axis in "xyz"]), "texts": pyarrow.list_(pyarrow.string()),
+          "vector": _numbers_of("xyz"), "pose": pyarrow.struct([("position", _numbers_of("xyz")), ("orientation", _numbers_of("xyzw"))]),
+          "packed fields": pyarrow.list_(pyarrow.struct([("name", pyarrow.string()), ("offset", pyarrow.int64()), ("type", pyarrow.int64())])),
+          "texts": pyarrow.list_(pyarrow.string()),
           "numbers": pyarrow.list_(pyarrow.float64()), "rows": pyarrow.list_(pyarrow.list_(pyarrow.float64()))}
 
 

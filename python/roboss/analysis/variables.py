@@ -10,8 +10,7 @@ from ..errors import ArgumentError, SensorError
 from ..names import unknown
 from ..robots import Floats, Robots
 from ..run import Run
-from ..sensors import Sensor
-from .messages import AS_MESSAGES, WORLD_CONTACTS, Messages, kinds_of
+from .messages import AS_MESSAGES, WORLD_CONTACTS, Messages, kinds_of, sensor_names
 from .recording import POSE, TWIST, Column, matches
 
 _Read = Callable[[Robots], Any]  # gives (N, parts)
@@ -193,9 +192,9 @@ def _of_links(robots: Robots) -> list[_Kind]:
 
 def _of_sensors(robots: Robots) -> list[_Kind]:
     kinds = []
-    for name in dict.fromkeys(robots.sensors):  # of equal names the first
-        sensor = robots[:1][name]
-        if not isinstance(sensor, Sensor) or any(word in sensor.kind for word in AS_MESSAGES):
+    for number, name in enumerate(sensor_names(robots)):
+        sensor = robots[:1]._sensor(number)
+        if any(word in sensor.kind for word in AS_MESSAGES):
             continue
         try:
             readings, units = sensor.read_all(), sensor.units
@@ -206,5 +205,5 @@ def _of_sensors(robots: Robots) -> list[_Kind]:
                 count = array[0].size
                 parts = tuple((str(n), units.get(value, "")) for n in range(count)) if array.ndim > 1 else \
                     (("", units.get(value, "")),)
-                kinds.append(_Kind(f"{name}.{value}", parts, "", lambda r, n=name, v=value: r[n].read_all()[v]))
+                kinds.append(_Kind(f"{name}.{value}", parts, "", lambda r, n=number, v=value: r._sensor(n).read_all()[v]))
     return kinds

@@ -12,6 +12,7 @@
 #include "app/processes/member.h"
 #include "client/plugin.h"
 #include "client/program_host.h"
+#include "core/error_text.h"
 #include "visuals/visual_fetch.h"
 
 namespace roboss {
@@ -91,7 +92,8 @@ class ClientProcess {
         }
         member_.bus().flush(500);
         if (!host.failure().empty()) {
-            member_.report_error({host.failure(), "fix the control program", "client-failed"});
+            member_.report_error(
+                error_of_text("", host.failure(), "fix the control program", "client-failed"));
             return kRunFailed;
         }
         if (!host.client().over().empty()) member_.report(host.client().over());

@@ -6,10 +6,10 @@
 namespace roboss {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using OrderedJson = nlohmann::ordered_json;
 
-std::string text_of(const Json& json) {
-    return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+std::string text_of(const OrderedJson& json) {
+    return json.dump(-1, ' ', false, OrderedJson::error_handler_t::replace);
 }
 
 }  // namespace
@@ -30,7 +30,7 @@ Result<CocoFile> CocoFile::create(const std::filesystem::path& file, LabelNames 
 void CocoFile::add(const ImageInfo& image, const std::vector<SeenThing>& things) {
     images_.push_back(image);
     for (const SeenThing& thing : things) {
-        Json one;
+        OrderedJson one;
         one["id"] = ++annotations_;
         one["image_id"] = images_.size();
         one["category_id"] = thing.label;
@@ -45,8 +45,8 @@ void CocoFile::add(const ImageInfo& image, const std::vector<SeenThing>& things)
 }
 
 Result<> CocoFile::close() {
-    Json rest;
-    rest["images"] = Json::array();
+    OrderedJson rest;
+    rest["images"] = OrderedJson::array();
     for (std::size_t i = 0; i < images_.size(); ++i) {
         const ImageInfo& image = images_[i];
         rest["images"].push_back({{"id", i + 1},
@@ -57,7 +57,7 @@ Result<> CocoFile::close() {
                                   {"time_s", image.time_s},
                                   {"camera", image.camera}});
     }
-    rest["categories"] = Json::array();
+    rest["categories"] = OrderedJson::array();
     for (const auto& [label, name] : labels_)
         rest["categories"].push_back({{"id", label}, {"name", name}, {"supercategory", "model"}});
     rest["info"] = {{"description", "made by roboss dataset"}};

@@ -32,7 +32,7 @@ namespace roboss {
 
 class Run {
   public:
-    explicit Run(const RunOptions& options) : o_(options), progress_(!options.quiet) {}
+    explicit Run(const RunOptions& options) : o_(options), progress_(options.shows_progress()) {}
     /// The exit code.
     int go();
 
@@ -132,6 +132,7 @@ class Run {
 
     bool advance_to(Tick target);
     void report_notices();
+    void stop(const Error& why);
     void show_progress();
     bool write_trace();
     bool write_contacts();
@@ -140,6 +141,7 @@ class Run {
 
     const RunOptions& o_;
     Progress progress_;
+    std::string doing_;  // besides stepping, for the progress line
     std::shared_ptr<const Model> model_;
     std::shared_ptr<const Model>
         world_model_;        // of the world file, to which a reset returns; null: of a replay

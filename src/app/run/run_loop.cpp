@@ -52,8 +52,16 @@ bool Run::advance_to(Tick target) {
                (requests_.empty() || simulation_->tick() < busy_until_);
     });
     if (!looked_after) return abandoned_ = true, print(looked_after.error()), false;
-    if (!stepped) return progress_.clear(), print(stepped.error()), false;
+    if (!stepped) return stop(stepped.error()), false;
     return true;
+}
+
+/// Says once why the run cannot continue, behind what happened before.
+void Run::stop(const Error& why) {
+    report_notices();
+    if (log_) log_->event(simulation_->tick(), "stopped: " + why.message);
+    progress_.clear();
+    print(why);
 }
 
 /// One turn of a paused run; false if it cannot continue.
@@ -94,13 +102,17 @@ bool Run::take_picture() {
         const auto threads = static_cast<unsigned>(threads_of_each(o_.threads, 1));
         const Result<> read = take_reading(o_.sense, {model_, simulation_->states(), simulation_->tick(),
                                                       simulation_->seed(), threads, visuals});
+        progress_.clear();
         if (!read) print(read.error());
         return read.ok();
     }
+    doing_ = "drawing the picture  ";
     const Result<> taken =
         take_snapshot(o_.snapshot, gateway_->url(), [this] { return rest() && !interrupted(); });
-    if (!taken) print(taken.error());
-    return taken.ok();
+    progress_.clear();
+    if (!taken) return print(taken.error()), false;
+    fmt::print(stderr, "wrote {}, {} x {} pixels\n", o_.snapshot.file, o_.snapshot.width, o_.snapshot.height);
+    return true;
 }
 
 /// Writes and checks what is due at this tick.
@@ -181,7 +193,7 @@ void Run::report_notices() {
 }
 
 void Run::show_progress() {
-    progress_.show(*simulation_, dataset_ ? fmt::format("frame {}  ", dataset_->frames()) : std::string());
+    progress_.show(*simulation_, dataset_ ? fmt::format("frame {}  ", dataset_->frames()) : doing_);
     report_notices();
     if (log_) log_->write_state_if_due(*simulation_);
 }

@@ -73,6 +73,9 @@ struct RunOptions {
     SenseOptions sense;
     DatasetOptions dataset;
     bool quiet = false;
+    bool quiet_but_progress = false;  // of commands that are quiet by themselves
+
+    bool shows_progress() const { return !quiet || quiet_but_progress; }
 };
 
 /// Of `roboss run`: all members on this computer.

@@ -101,6 +101,7 @@ void add_sense_command(CLI::App& app, int& exit_code) {
     command->callback([options, &exit_code] {
         if (!options->until_s && !options->duration_s) options->until_s = 0.0;
         options->viewer.headless = true;
+        options->quiet_but_progress = !options->quiet;
         options->quiet = true;
         exit_code = Run(*options).go();
     });

@@ -201,10 +201,7 @@ Result<> take_snapshot(const SnapshotOptions& options, const std::string& url,
                          "no-picture"};
     Result<std::string> picture = browser.value()->picture();
     if (!picture) return picture.error();
-    Result<> written = write_file(options.file, picture.value());
-    if (written)
-        fmt::print(stderr, "wrote {}, {} x {} pixels\n", options.file, options.width, options.height);
-    return written;
+    return write_file(options.file, picture.value());
 }
 
 void add_snapshot_command(CLI::App& app, int& exit_code) {
@@ -220,6 +217,7 @@ void add_snapshot_command(CLI::App& app, int& exit_code) {
     command->callback([options, &exit_code] {
         if (!options->until_s && !options->duration_s) options->until_s = 0.0;
         options->viewer.headless = look_through(options->snapshot, options->sense);
+        options->quiet_but_progress = !options->quiet;
         options->quiet = true;
         exit_code = Run(*options).go();
     });

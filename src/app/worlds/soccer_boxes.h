@@ -1,4 +1,5 @@
-// Boxes of a soccer field as text of a world file: walls, lines, parts of robots.
+// What the worlds of both soccer leagues have alike, as text: the head, and boxes (walls, lines, parts of
+// robots).
 #pragma once
 
 #include <fmt/format.h>
@@ -14,6 +15,18 @@ namespace roboss {
 struct FieldBox {
     double x = 0, y = 0, z = 0, length = 0, width = 0, height = 0, yaw = 0;
 };
+
+/// From the world's name to the link of the field; both leagues step alike.
+inline constexpr const char* kSoccerHead = R"(  <world name="soccer">
+    <physics name="step" type="ignored">
+      <max_step_size>0.0020833333333333333</max_step_size>
+      <real_time_factor>1</real_time_factor>
+    </physics>
+    <gravity>0 0 -9.81</gravity>
+    <model name="field">
+      <static>true</static>
+      <link name="link">
+)";
 
 inline std::string placed(const FieldBox& box) {
     return fmt::format(

@@ -83,25 +83,19 @@ void add_head(Text& text, const Field& field) {
     add(text, R"(<?xml version="1.0"?>
 <!-- Robot soccer, {0} league, {1} against {1}. Made by: roboss-world soccer, league {0}. Change the generator, not this file. -->
 <sdf version="1.9" xmlns:roboss="https://roboss.org/sdf">
-  <world name="soccer">
-    <physics name="step" type="ignored">
-      <max_step_size>0.0020833333333333333</max_step_size>
-      <real_time_factor>1</real_time_factor>
-    </physics>
-    <gravity>0 0 -9.81</gravity>
-    <model name="field">
-      <static>true</static>
-      <link name="link">
-        <collision name="table">
-          <geometry><plane><normal>0 0 1</normal><size>{2:.2f} {3:.2f}</size></plane></geometry>
+)",
+        field.league, field.robots);
+    add(text, kSoccerHead);
+    add(text, R"(        <collision name="table">
+          <geometry><plane><normal>0 0 1</normal><size>{0:.2f} {1:.2f}</size></plane></geometry>
           <surface><friction><ode><mu>1.2</mu><mu2>1.2</mu2></ode></friction></surface>
         </collision>
         <visual name="table">
-          <geometry><plane><normal>0 0 1</normal><size>{2:.2f} {3:.2f}</size></plane></geometry>
+          <geometry><plane><normal>0 0 1</normal><size>{0:.2f} {1:.2f}</size></plane></geometry>
           <material><diffuse>0.10 0.14 0.12 1</diffuse></material>
         </visual>
 )",
-        field.league, field.robots, 2 * field.half_length + 1, 2 * field.half_width + 1);
+        2 * field.half_length + 1, 2 * field.half_width + 1);
 }
 
 /// A wall over the rectangle; restitution of wood.

@@ -18,27 +18,20 @@ using soccer::SslRobot;
 
 constexpr const char* kLineColour = "0.92 0.92 0.90";
 
-// Two grounds in one place, as the ball slides on the carpet with less friction than rubber rollers: the
-// lower two bits of the masks say which of them a shape stands on. Friction of a pair is the smaller one, so
-// ball and dribbler grip each other better than the ball grips the carpet; a dribbler needs that.
 constexpr const char* kHead = R"(<?xml version="1.0"?>
 <!-- RoboCup Small Size League, {0}, {1} against {1}. Made by: roboss-world soccer, league {0}. Change the generator, not this file. -->
 <sdf version="1.9" xmlns:gz="http://gazebosim.org/schema" xmlns:roboss="https://roboss.org/sdf">
-  <world name="soccer">
-    <physics name="step" type="ignored">
-      <max_step_size>0.0020833333333333333</max_step_size>
-      <real_time_factor>1</real_time_factor>
-    </physics>
-    <gravity>0 0 -9.81</gravity>
-    <model name="field">
-      <static>true</static>
-      <link name="link">
-        <collision name="carpet_of_robots">
-          <geometry><plane><normal>0 0 1</normal><size>{2:.2f} {3:.2f}</size></plane></geometry>
+)";
+
+// Two grounds in one place, as the ball slides on the carpet with less friction than rubber rollers: the
+// lower two bits of the masks say which of them a shape stands on. Friction of a pair is the smaller one, so
+// ball and dribbler grip each other better than the ball grips the carpet; a dribbler needs that.
+constexpr const char* kCarpet = R"(        <collision name="carpet_of_robots">
+          <geometry><plane><normal>0 0 1</normal><size>{0:.2f} {1:.2f}</size></plane></geometry>
           <surface><contact><collide_bitmask>1</collide_bitmask></contact><friction><ode><mu>0.8</mu><mu2>0.8</mu2></ode></friction></surface>
         </collision>
         <collision name="carpet_of_ball">
-          <geometry><plane><normal>0 0 1</normal><size>{2:.2f} {3:.2f}</size></plane></geometry>
+          <geometry><plane><normal>0 0 1</normal><size>{0:.2f} {1:.2f}</size></plane></geometry>
           <surface>
             <contact><collide_bitmask>2</collide_bitmask></contact>
             <friction><ode><mu>0.35</mu><mu2>0.35</mu2></ode></friction>
@@ -46,7 +39,7 @@ constexpr const char* kHead = R"(<?xml version="1.0"?>
           </surface>
         </collision>
         <visual name="carpet">
-          <geometry><plane><normal>0 0 1</normal><size>{2:.2f} {3:.2f}</size></plane></geometry>
+          <geometry><plane><normal>0 0 1</normal><size>{0:.2f} {1:.2f}</size></plane></geometry>
           <material><diffuse>0.12 0.36 0.17 1</diffuse></material>
         </visual>
 )";
@@ -270,9 +263,10 @@ void add_ssl_robot(Text& text, const SslField& field, bool blue, int number) {
 
 std::string ssl_sdf(const SslField& field) {
     Text text;
-    fmt::format_to(std::back_inserter(text), fmt::runtime(kHead), field.league, field.robots,
-                   2 * (field.half_length + field.end_margin) + 1,
-                   2 * (field.half_width + field.side_margin) + 1);
+    add(text, kHead, field.league, field.robots);
+    add(text, kSoccerHead);
+    add(text, kCarpet, 2 * (field.half_length + field.end_margin) + 1,
+        2 * (field.half_width + field.side_margin) + 1);
     add_boundary(text, field);
     add_ssl_lines(text, field);
     add(text, "      </link>\n    </model>\n");

@@ -5,6 +5,8 @@
 #include <limits>
 #include <utility>
 
+#include "core/error_text.h"
+
 namespace roboss {
 
 namespace {
@@ -161,10 +163,10 @@ void ClientService::take_bye(Bus& bus, const Address& from, const ClientBye& bye
     seat->acknowledge_at = recorder_.given();
     if (!is_news) return;
     if (bye.failed)
-        notices_.fail({"client '" + seat->name + "' failed at tick " + std::to_string(directory_.tick()) +
-                           ": " + bye.reason,
-                       "fix the control program; the world up to this tick is intact and can be saved",
-                       "client-failed"});
+        notices_.fail(error_of_text(
+            "client '" + seat->name + "' failed at tick " + std::to_string(directory_.tick()) + ": ",
+            bye.reason, "fix the control program; the world up to this tick is intact and can be saved",
+            "client-failed"));
     else
         notices_.add("client '" + seat->name + "' left");
 }

@@ -176,6 +176,14 @@ TEST_F(Clients, AFailureOfOneEndsTheRun) {
     service().take_bye(bus, kA, {ClientId(0u), 1, true, "no wheels"});
     ASSERT_TRUE(notices.failure());
     EXPECT_EQ(notices.failure()->code, "client-failed");
+    EXPECT_FALSE(notices.failure()->remedy.empty());
+}
+
+TEST_F(Clients, TheRemedyOfAFailureIsTheProgramsOwn) {
+    join(kA, "a", 10, 10);
+    service().take_bye(bus, kA, {ClientId(0u), 1, true, "no wheels\n  remedy: mount wheels"});
+    ASSERT_TRUE(notices.failure());
+    EXPECT_EQ(notices.failure()->remedy, "mount wheels");
 }
 
 }  // namespace

@@ -18,11 +18,9 @@ class RunNotices {
     void dropped(const char* message, Tick tick, const std::string& why) {
         add(std::string("dropped=") + message + " tick=" + std::to_string(tick) + " reason=\"" + why + "\"");
     }
-    /// The run cannot continue. Only the first error counts.
+    /// The run cannot continue. Only the first error counts. It is no line: who drives the run reports it.
     void fail(Error error) {
-        if (failure_) return;
-        add("stopped: " + error.message);
-        failure_ = std::move(error);
+        if (!failure_) failure_ = std::move(error);
     }
     const std::optional<Error>& failure() const { return failure_; }
     /// The lines since the last call.
