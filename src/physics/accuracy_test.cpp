@@ -194,8 +194,8 @@ TEST(AccuracySettings, PilesKeepMomentumAtEverySetting) {
     for (const char* setting : {"fast", "standard", "high"}) {
         World world = empty_world(2e-3, {});
         world.accuracy.push_back(named(setting));
-        for (int i = 0; i < 27; ++i) {
-            const Vec3 at{0.22 * (i % 3 - 1), 0.23 * (i / 3 % 3 - 1), 0.21 * (i / 9 - 1)};
+        for (int i = 0; i < 64; ++i) {  // a part of 32 and more is one that sweeps may settle
+            const Vec3 at{0.22 * (i % 4 - 1.5), 0.23 * (i / 4 % 4 - 1.5), 0.21 * (i / 16 - 1.5)};
             const Pose X{at, from_rpy(0.1 * i, 0.2, 0.05 * i)};
             place(world, solid_box(1.0 + i % 3, {0.2, 0.2, 0.2}, surface(0.6)), "box_" + std::to_string(i),
                   X);
@@ -207,14 +207,19 @@ TEST(AccuracySettings, PilesKeepMomentumAtEverySetting) {
             sim.states[i].v[3] = v.x, sim.states[i].v[4] = v.y, sim.states[i].v[5] = v.z;
         }
         const Momentum before = sim.momentum();
-        const double energy = sim.energy();
+        double least = sim.energy(), gained = 0;
         int contacts = 0;
-        for (int i = 0; i < 200; ++i) contacts += sim.step().contacts;
+        for (int i = 0; i < 200; ++i) {
+            contacts += sim.step().contacts;
+            gained = std::fmax(gained, sim.energy() / least - 1);
+            least = std::fmin(least, sim.energy());
+        }
         const Momentum after = sim.momentum();
         EXPECT_GT(contacts, 400) << setting;
         EXPECT_LT(norm(after.linear - before.linear), 1e-10) << setting;
         EXPECT_LT(norm(after.angular - before.angular), 1e-6) << setting;
-        EXPECT_LT(sim.energy(), energy) << setting;
+        EXPECT_LT(gained, 1e-6) << setting;
+        tell(std::string(setting) + ": energy gained, relative to its least before", gained);
         tell(std::string(setting) + ": linear momentum off by", norm(after.linear - before.linear));
         tell(std::string(setting) + ": angular momentum off by", norm(after.angular - before.angular));
     }

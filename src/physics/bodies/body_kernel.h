@@ -31,8 +31,7 @@ class BodyKernel {
     virtual double slope(const BodyIsland& island) const = 0;
     virtual double slope_beyond(const BodyIsland& island, double fraction) const = 0;
     /// Gauss-Seidel sweeps from the impulses f_n, f_1, f_2; v and swept_n, swept_1, swept_2 are the result.
-    /// True if it has settled (SweepPlan).
-    virtual bool sweep(BodyIsland& island, const SweepPlan& plan) const = 0;
+    virtual SweepReport sweep(BodyIsland& island, const SweepPlan& plan) const = 0;
 };
 
 /// The best that this processor can run.

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cstring>
 #include <tuple>
 
 #include "physics/bodies/body_island.h"
@@ -66,6 +67,15 @@ void PairBatches::fill_batches(const std::vector<BodyPoint>& points, int nobody)
         for (std::uint32_t i = 0; i < pair.points; ++i)
             places_[pair.first + i] = (batch.first + i) * 8 + lane;
     }
+}
+
+void make_room_for_sweeps(BodyIsland& island) {
+    const std::size_t bodies = island.bodies.size();
+    island.pairs.arrange(bodies, island.points);
+    island.whitening.resize(bodies), island.swept_before.resize(bodies);
+    island.swept.assign(bodies + 1, Six{}), island.swept_direction.assign(bodies, Six{});
+    island.slots.resize(island.pairs.slots());
+    std::memset(static_cast<void*>(island.slots.data()), 0, island.slots.size() * sizeof(PointSlot));
 }
 
 }  // namespace roboss

@@ -11,6 +11,7 @@
 namespace roboss {
 
 struct BodyPoint;
+struct BodyIsland;
 
 /// Numbers of eight pairs.
 struct alignas(64) Eight {
@@ -35,17 +36,18 @@ struct PointSlot {
 /// Eight pairs of bodies or fewer. `b` of a pair with scenery, and both of a lane without a pair, are the
 /// body after the last one, which never moves.
 struct PairBatch {
-    int a[8], b[8];
+    int a[8] = {}, b[8] = {};
     int pairs = 0;
     bool scenery = false;             // so are all or none
     std::size_t first = 0, last = 0;  // slots
 };
 
-/// Pairs take colours in their order, each the lowest that none of its bodies has. Pairs of a colour fill
+/// Pairs take colours in their order, each the lowest that none of its bodies has (beyond 64 the first after
+/// all of theirs). Pairs of a colour fill
 /// batches: those of two bodies, then those with scenery, those with the most points first.
 class PairBatches {
   public:
-    /// `points` of one pair must be neighbours.
+    /// Neighbours in `points` that join the same bodies are one pair.
     void arrange(std::size_t bodies, const std::vector<BodyPoint>& points);
 
     const std::vector<PairBatch>& batches() const { return batches_; }
@@ -68,5 +70,8 @@ class PairBatches {
     std::vector<std::uint64_t> taken_;    // by body: the lowest 64 colours
     std::vector<std::uint32_t> further_;  // by body: the first free one beyond
 };
+
+/// Arranges the island's pairs and makes room for its sweeps. Not inlined into the code for one processor.
+void make_room_for_sweeps(BodyIsland& island);
 
 }  // namespace roboss

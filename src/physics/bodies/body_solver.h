@@ -47,10 +47,12 @@ class BodySolver {
     bool change_pushing();
     void start();
     bool take_first_step();
-    bool sweep(const SweepPlan& plan);
+    SweepReport sweep(const SweepPlan& plan);
     void take_swept();
     bool settle_velocities(const Accuracy& accuracy);
     bool settle_displacement(const BodyPart& part);
+    bool hardly_moves() const;
+    bool keeps_apart() const;
     bool start_from_sweeps();
     void start_from_sticking();
     double balance_tied();
@@ -66,7 +68,7 @@ class BodySolver {
     const BodyKernel& kernel_ = body_kernel();
     BodyIsland island_;
     bool position_ = false;
-    bool swept_ = false;  // the velocities, from v_start_
+    bool swept_ = false;  // sweeps have found velocities; v_start_ holds those before
     double residual_ = 0;
     int iterations_ = 0;
     std::vector<std::uint32_t> local_;  // by robot of the problem: its body

@@ -120,7 +120,9 @@ class LaneBodies final : public BodyKernel {
         return slope;
     }
 
-    bool sweep(BodyIsland& s, const SweepPlan& plan) const override { return LaneSweeps::run(s, plan); }
+    SweepReport sweep(BodyIsland& s, const SweepPlan& plan) const override {
+        return LaneSweeps::run(s, plan);
+    }
 
   private:
     static void apply(const Six& n, const Six& t1, const Six& t2, const BodyPoint& p, Six& applied) {

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 
 #include "core/lanes_x86.h"
 #include "physics/lanes/lane_six.h"
@@ -20,17 +19,17 @@ namespace {
 /// where a sweep changes more than the one before it.
 class LaneSweeps {
   public:
-    static bool run(BodyIsland& s, const SweepPlan& plan) {
+    static SweepReport run(BodyIsland& s, const SweepPlan& plan) {
         start(s);
         SweepProgress progress(plan);
         double change = first_sweep(s, progress);
         while (!progress.ends(change)) {
             accelerate_bodies(s, progress.share());
-            s.swept_before = s.swept;
+            keep_velocities(s);
             change = sweep(s, progress.share());
         }
         finish(s);
-        return progress.settled();
+        return progress.report();
     }
 
   private:
@@ -174,8 +173,12 @@ class LaneSweeps {
         if constexpr (!kScenery) scatter(y.b, batch.b + lane, s.swept.data());
     }
 
+    static void keep_velocities(BodyIsland& s) {
+        for (std::size_t b = 0; b < s.bodies.size(); ++b) store(load(s.swept[b]), s.swept_before[b]);
+    }
+
     static double first_sweep(BodyIsland& s, SweepProgress& progress) {
-        s.swept_before = s.swept;
+        keep_velocities(s);
         const double change = sweep(s, 0);
         progress.begin(squared_impulses(s), squared_motion(s));
         return change;
@@ -202,13 +205,13 @@ class LaneSweeps {
         return ((x[0] + x[1]) + (x[2] + x[3])) + ((x[4] + x[5]) + (x[6] + x[7]));
     }
 
-    /// Of the velocities before the tick along the points, each by its effective mass.
+    /// Of the velocities that the solve starts from along the points, each by its effective mass.
     static double squared_motion(const BodyIsland& s) {
         double sum = 0;
         for (std::size_t k = 0; k < s.points.size(); ++k) {
             const BodyPoint& p = s.points[k];
-            const PointSlot& slot = s.slots[s.pairs.place_of(k) / 8];
             const std::size_t lane = s.pairs.place_of(k) % 8;
+            const PointSlot& slot = s.slots[s.pairs.place_of(k) / 8];
             sum +=
                 p.u_n * p.u_n * slot.mass_n.x[lane] + (p.u_1 * p.u_1 + p.u_2 * p.u_2) * slot.mass_t.x[lane];
         }
@@ -238,18 +241,12 @@ class LaneSweeps {
     }
 
     static void start(BodyIsland& s) {
+        make_room_for_sweeps(s);
         const std::size_t bodies = s.bodies.size();
-        s.pairs.arrange(bodies, s.points);
-        s.whitening.resize(bodies);
-        s.swept.resize(bodies + 1);
-        s.swept_direction.assign(bodies, Six{});
         for (std::size_t b = 0; b < bodies; ++b) {
             invert_root(s.bodies[b].mass, s.whitening[b]);
             store(times(s.whitening[b], s.bodies[b].impulse), s.swept[b]);
         }
-        s.swept[bodies] = {};
-        s.slots.resize(s.pairs.slots());
-        std::memset(static_cast<void*>(s.slots.data()), 0, s.slots.size() * sizeof(PointSlot));
         for (std::size_t k = 0; k < s.points.size(); ++k) take_point(s, k);
     }
 

@@ -11,8 +11,7 @@ namespace roboss {
 namespace {
 
 constexpr std::size_t kLargePile = 16;  // robots: from here on sweeps may settle what moves
-constexpr int kMostToSettle = 300;
-constexpr double kSticking = 0.998;  // of the squared friction bound: beyond, a sweep says that it slides
+constexpr double kSticking = 0.998;     // of the squared friction bound: beyond, a sweep says that it slides
 
 /// Impulses spread through few robots a sweep.
 int most_sweeps(std::size_t robots) {
@@ -102,13 +101,13 @@ bool IslandSolver::solve_by_sweeps(const Problem& p, std::vector<double>& v, Rep
     Lockstep<double> alone;
     v_before_sweeps_ = v;
     const int most = most_sweeps(p.robots.size());
-    SweepPlan plan{.most = most};
-    if (p.robots.size() >= kLargePile && sweeps_see_all(p))
-        plan.settled = pile_may_settle(p.accuracy), plan.most_to_settle = kMostToSettle;
-    if (sweeps_.run(p, plan, v)) {
+    const bool may_settle = p.robots.size() >= kLargePile && sweeps_see_all(p);
+    const SweepReport swept =
+        sweeps_.run(p, may_settle ? pile_plan(p.accuracy, most) : SweepPlan{.most = most}, v);
+    if (swept.settled) {
         take_swept(p, v);
         set_gradient(p);
-        report.residual = 0;
+        report.residual = 0, report.iterations += swept.iterations();
         return true;
     }
     for (int tries = 1, longs = 1;; ++tries) {

@@ -36,28 +36,28 @@ void cut(double coefficient, RowSweeps::ContactImpulse& x) {
 
 }  // namespace
 
-bool RowSweeps::run(const Problem& p, const SweepPlan& plan, std::vector<double>& v) {
+SweepReport RowSweeps::run(const Problem& p, const SweepPlan& plan, std::vector<double>& v) {
     converged_ = plan.converged;
     start(p, v.size());
-    return sweep_all(p, plan, plan.settled > 0 ? squared_motion(p, v) : 0, v);
+    return sweep_all(p, plan, v);
 }
 
 void RowSweeps::go_on(const Problem& p, int most, std::vector<double>& v) {
     converged_ *= 1e-2;
-    sweep_all(p, {.most = most, .converged = converged_}, 0, v);
+    sweep_all(p, {.most = most, .converged = converged_}, v);
 }
 
-bool RowSweeps::sweep_all(const Problem& p, const SweepPlan& plan, double motion, std::vector<double>& v) {
+SweepReport RowSweeps::sweep_all(const Problem& p, const SweepPlan& plan, std::vector<double>& v) {
     SweepProgress progress(plan);
     double change = sweep(p);
-    progress.begin(squared_impulses(), motion);
+    progress.begin(squared_impulses(), plan.settled > 0 ? squared_motion(p, v) : 0);
     while (!progress.ends(change)) {
         accelerate(progress.share());
         change = sweep(p);
     }
     for (std::size_t r = 0; r < p.robots.size(); ++r)
         std::copy_n(v_.data() + place_[r], p.robots[r]->type->paths.size(), v.data() + p.offsets[r]);
-    return progress.settled();
+    return progress.report();
 }
 
 /// Of the contact points, at these velocities.
@@ -107,7 +107,7 @@ void RowSweeps::take_up(const Problem& p, int most, std::vector<double>& v) {
     v_ = v_free_;
     start_scalars(p, true);
     start_contacts(p, true);
-    sweep_all(p, {.most = most, .converged = converged_}, 0, v);
+    sweep_all(p, {.most = most, .converged = converged_}, v);
 }
 
 void RowSweeps::start_scalars(const Problem& p, bool again) {

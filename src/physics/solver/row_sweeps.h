@@ -22,9 +22,9 @@ class RowSweeps {
     };
 
     /// Sweeps from the impulses that the contacts carried last (the normals hold them), or that all rows hold
-    /// if they are solved again. `v`: before the solve; ends as the velocities with the impulses found.
-    /// Torsional and rolling friction take no part. True if the contacts have settled.
-    bool run(const Problem& p, const SweepPlan& plan, std::vector<double>& v);
+    /// if they are solved again. `v`: where the solve starts; ends as the velocities with the impulses found.
+    /// Torsional and rolling friction take no part.
+    SweepReport run(const Problem& p, const SweepPlan& plan, std::vector<double>& v);
     /// Continues from there until they converge ten times closer.
     void go_on(const Problem& p, int most, std::vector<double>& v);
 
@@ -59,7 +59,7 @@ class RowSweeps {
     };
 
     void start(const Problem& p, std::size_t n);
-    bool sweep_all(const Problem& p, const SweepPlan& plan, double motion, std::vector<double>& v);
+    SweepReport sweep_all(const Problem& p, const SweepPlan& plan, std::vector<double>& v);
     double squared_motion(const Problem& p, const std::vector<double>& v) const;
     void start_scalars(const Problem& p, bool again);
     void start_contacts(const Problem& p, bool again);

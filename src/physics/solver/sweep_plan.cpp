@@ -1,21 +1,26 @@
 // See sweep_plan.h.
 #include "physics/solver/sweep_plan.h"
 
+#include <algorithm>
+#include <cmath>
+
 namespace roboss {
 
 void SweepProgress::begin(double impulses, double motion) {
-    constexpr double kMoves =
-        1e-9;  // what settles, relative to the impulses; less is left to Newton's method
-    moves_ = plan_.settled * motion > kMoves * impulses;
+    // Of what settles, relative to the impulses: less is left to Newton's method, more is not taken, for what
+    // rests beside something fast is to carry its load.
+    constexpr double kLeast = 1e-9, kMost = 1e-6;
+    const double enough = plan_.settled * motion;
+    moves_ = enough > kLeast * impulses;
     most_ = moves_ ? plan_.most_to_settle : plan_.most;
-    enough_ = moves_ ? plan_.settled * motion : plan_.converged * impulses;
+    enough_ = moves_ ? std::min(enough, kMost * impulses) : plan_.converged * impulses;
 }
 
 bool SweepProgress::ends(double change) {
-    ++sweeps_;
-    settled_ = moves_ && change <= enough_;
-    if (change <= enough_ || sweeps_ >= most_) return true;
-    share_ = sweeps_ > 1 && change <= last_ ? change / last_ : 0;
+    ++report_.sweeps;
+    report_.settled = moves_ && change <= enough_;
+    if (change <= enough_ || report_.sweeps >= most_ || !std::isfinite(change)) return true;
+    share_ = report_.sweeps > 1 && change <= last_ ? change / last_ : 0;
     last_ = change;
     if (is_stuck(change)) share_ = 0;
     return false;
@@ -26,7 +31,7 @@ bool SweepProgress::ends(double change) {
 bool SweepProgress::is_stuck(double change) {
     constexpr double kProgress = 0.7;  // of the least change before
     constexpr int kPatience = 16;
-    const bool improves = sweeps_ == 1 || change < kProgress * best_;
+    const bool improves = report_.sweeps == 1 || change < kProgress * best_;
     since_best_ = improves ? 0 : since_best_ + 1;
     if (improves) best_ = change;
     if (since_best_ < kPatience) return false;

@@ -1,9 +1,9 @@
 // When Gauss-Seidel sweeps over contacts end, and when what they found is the solution. Shared by those of
-// free bodies (lanes/lane_pair_sweeps.h) and of robots with joints (row_sweeps.h).
+// free bodies (lanes/lane_pair_sweeps.h) and of robots with joints (row_sweeps.h); decision 0037.
 //
-// Sums are over all rows: impulses by effective mass (impulse^2 / mass), motion likewise (speed^2 * mass),
-// where the speeds are those along the rows before the solve: of contact points that slide, close and open.
-// Both are energies, and do not depend on the frame of reference.
+// Sums: impulses by effective mass (impulse^2 / mass) over all rows; motion likewise (speed^2 * mass) over
+// the contact points, with the speeds along them at the velocities that the solve starts from. Both are
+// energies and do not depend on the frame of reference.
 #pragma once
 
 #include "model/model.h"
@@ -17,10 +17,19 @@ struct SweepPlan {
     int most_to_settle = 0;  // sweeps, at most, where there is motion to compare with
 };
 
-/// Squared change that ends a pile's sweeps, relative to its motion; 0 where Newton's method shall finish.
-/// Sweeps alone miss the velocities by a thousandth of how fast the contact points move (root mean square).
-inline double pile_may_settle(const Accuracy& accuracy) {
-    return accuracy.tolerance >= 1e-9 ? 1e-7 : 0;
+struct SweepReport {
+    bool settled = false;  // the impulses are the solution
+    int sweeps = 0;
+    /// In iterations of Newton's method that take as long.
+    int iterations() const { return sweeps / 12; }
+};
+
+/// The plan for a pile: to settle where the accuracy leaves that to sweeps, as in `standard`. They miss the
+/// velocities by about a thousandth of how fast the contact points move (root mean square).
+inline SweepPlan pile_plan(const Accuracy& accuracy, int most) {
+    SweepPlan plan{.most = most};
+    if (accuracy.tolerance >= 1e-9) plan.settled = 1e-7, plan.most_to_settle = 300;
+    return plan;
 }
 
 /// Follows the sweeps of one solve.
@@ -28,22 +37,22 @@ class SweepProgress {
   public:
     explicit SweepProgress(const SweepPlan& plan) : plan_(plan) {}
 
-    /// After the first sweep. `impulses`: squared.
+    /// After the first sweep. `impulses`, `motion`: squared.
     void begin(double impulses, double motion);
     /// After each sweep. `change`: squared, of the impulses. True if that was the last.
     bool ends(double change);
     /// What is left of the search direction.
     double share() const { return share_; }
-    /// The last sweep changed so little that nothing more is needed.
-    bool settled() const { return settled_; }
+    const SweepReport& report() const { return report_; }
 
   private:
     bool is_stuck(double change);
 
     SweepPlan plan_;
-    int sweeps_ = 0, most_ = 0, since_best_ = 0;
+    SweepReport report_;
+    int most_ = 0, since_best_ = 0;
     double enough_ = 0, last_ = 0, best_ = 0, share_ = 0;
-    bool moves_ = false, settled_ = false;
+    bool moves_ = false;
 };
 
 }  // namespace roboss

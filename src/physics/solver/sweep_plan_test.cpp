@@ -1,0 +1,63 @@
+// When sweeps end, and when what they found is the solution.
+#include "physics/solver/sweep_plan.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+namespace roboss {
+namespace {
+
+constexpr SweepPlan kPlan{.most = 3, .converged = 1e-8, .settled = 1e-7, .most_to_settle = 100};
+
+TEST(SweepProgress, SettlesAtAShareOfTheMotion) {
+    SweepProgress progress(kPlan);
+    progress.begin(1, 2);
+    EXPECT_FALSE(progress.ends(3e-7));
+    EXPECT_TRUE(progress.ends(1.9e-7));
+    EXPECT_TRUE(progress.report().settled);
+    EXPECT_EQ(progress.report().sweeps, 2);
+}
+
+TEST(SweepProgress, NothingSettlesAtRest) {
+    SweepProgress progress(kPlan);
+    progress.begin(1, 1e-3);
+    EXPECT_FALSE(progress.ends(1e-7));
+    EXPECT_FALSE(progress.ends(2e-8));
+    EXPECT_TRUE(progress.ends(1.1e-8)) << "the last of three";
+    EXPECT_FALSE(progress.report().settled);
+    SweepProgress converges(kPlan);
+    converges.begin(1, 1e-3);
+    EXPECT_TRUE(converges.ends(1e-9));
+    EXPECT_FALSE(converges.report().settled);
+}
+
+TEST(SweepProgress, SomethingFastDoesNotLoosenWhatRestsBesideIt) {
+    SweepProgress progress(kPlan);
+    progress.begin(1, 1e6);
+    EXPECT_FALSE(progress.ends(1e-5));
+    EXPECT_TRUE(progress.ends(0.9e-6));
+    EXPECT_TRUE(progress.report().settled);
+}
+
+TEST(SweepProgress, WhatIsNoNumberEndsThem) {
+    SweepProgress progress(kPlan);
+    progress.begin(1, 2);
+    EXPECT_TRUE(progress.ends(std::numeric_limits<double>::quiet_NaN()));
+    EXPECT_FALSE(progress.report().settled);
+}
+
+TEST(SweepProgress, WithoutProgressTheAccelerationStops) {
+    SweepProgress progress(kPlan);
+    progress.begin(1, 2);
+    int plain = 0;
+    for (int i = 0; i < 48; ++i) {
+        EXPECT_FALSE(progress.ends(i == 0 ? 1 : 0.9));
+        plain += progress.share() == 0 ? 1 : 0;
+    }
+    EXPECT_GE(plain, 16);
+    EXPECT_LT(plain, 32);
+}
+
+}  // namespace
+}  // namespace roboss
