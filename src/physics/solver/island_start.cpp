@@ -10,19 +10,11 @@
 namespace roboss {
 namespace {
 
-constexpr std::size_t kLargePile = 16;  // robots: from here on sweeps may settle what moves
-constexpr double kSticking = 0.998;     // of the squared friction bound: beyond, a sweep says that it slides
+constexpr double kSticking = 0.998;  // of the squared friction bound: beyond, a sweep says that it slides
 
 /// Impulses spread through few robots a sweep.
 int most_sweeps(std::size_t robots) {
     return robots < 16 ? 60 : 200;
-}
-
-/// True if no row has a law that sweeps leave out or take for another.
-bool sweeps_see_all(const IslandSolver::Problem& p) {
-    return p.rows.angulars.empty() && p.rows.couplings.empty() &&
-           std::ranges::none_of(p.rows.contacts,
-                                [](const ContactRow& c) { return slip_disc::slips(c.slip); });
 }
 
 /// The impulse between the row's bounds, or at one of them.
@@ -91,25 +83,17 @@ void IslandSolver::step_as_swept(const Problem& p, std::vector<double>& v, Repor
     report.residual = balance(p);
 }
 
-/// Sweeps, which may settle a large pile that moves, then coupled steps of Newton's method. Where these begin
-/// close to the balance and fail, few rows are other than they seem: a few sweeps from there settle them.
-/// Where they cannot begin, the sweeps go on. In the end Newton's method with the friction bounds that the
-/// sweeps found. False, and back to the start, if momentum does not balance then.
+/// Sweeps, then coupled steps of Newton's method. Where these begin close to the balance and fail, few rows
+/// are other than they seem: a few sweeps from there settle them. Where they cannot begin, the sweeps go on.
+/// In the end Newton's method with the friction bounds that the sweeps found. False, and back to the start,
+/// if momentum does not balance then.
 bool IslandSolver::solve_by_sweeps(const Problem& p, std::vector<double>& v, Report& report) {
     constexpr int kTries = 6, kLongMost = 3;  // of them, from so many series of sweeps
     constexpr int kFewSweeps = 20;
     Lockstep<double> alone;
     v_before_sweeps_ = v;
     const int most = most_sweeps(p.robots.size());
-    const bool may_settle = p.robots.size() >= kLargePile && sweeps_see_all(p);
-    const SweepReport swept =
-        sweeps_.run(p, may_settle ? pile_plan(p.accuracy, most) : SweepPlan{.most = most}, v);
-    if (swept.settled) {
-        take_swept(p, v);
-        set_gradient(p);
-        report.residual = 0, report.iterations += swept.iterations();
-        return true;
-    }
+    sweeps_.run(p, most, v);
     for (int tries = 1, longs = 1;; ++tries) {
         step_as_swept(p, v, report);
         const bool is_close = report.residual <= plan_.couple_from;
@@ -136,14 +120,14 @@ void IslandSolver::settle_for_sweeps(Problem p, std::vector<double>& v) {
     IslandRows& rows = p.rows;
     p.again = false;
     for (ContactRow& row : rows.contacts) row.normal.impulse = 0;
-    sweeps_.run(p, {.most = kSweeps}, v);
+    sweeps_.run(p, kSweeps, v);
     take_swept(p, v);
 }
 
 /// The velocities of a pile by sweeps alone.
 void IslandSolver::take_sweeps(const Problem& p, std::vector<double>& v, Report& report) {
     constexpr int kSweeps = 40;
-    sweeps_.run(p, {.most = kSweeps}, v);
+    sweeps_.run(p, kSweeps, v);
     take_swept(p, v);
     set_gradient(p);
     report.residual = 0;

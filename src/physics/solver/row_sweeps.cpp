@@ -36,40 +36,28 @@ void cut(double coefficient, RowSweeps::ContactImpulse& x) {
 
 }  // namespace
 
-SweepReport RowSweeps::run(const Problem& p, const SweepPlan& plan, std::vector<double>& v) {
-    converged_ = plan.converged;
+void RowSweeps::run(const Problem& p, int most, std::vector<double>& v) {
+    converged_ = 1e-8;
     start(p, v.size());
-    return sweep_all(p, plan, v);
+    sweep_all(p, most, v);
 }
 
 void RowSweeps::go_on(const Problem& p, int most, std::vector<double>& v) {
     converged_ *= 1e-2;
-    sweep_all(p, {.most = most, .converged = converged_}, v);
+    sweep_all(p, most, v);
 }
 
-SweepReport RowSweeps::sweep_all(const Problem& p, const SweepPlan& plan, std::vector<double>& v) {
-    SweepProgress progress(plan);
-    double change = sweep(p);
-    progress.begin(squared_impulses(), plan.settled > 0 ? squared_motion(p, v) : 0);
-    while (!progress.ends(change)) {
-        accelerate(progress.share());
-        change = sweep(p);
+void RowSweeps::sweep_all(const Problem& p, int most, std::vector<double>& v) {
+    double last = 0, enough = 0;
+    for (int i = 0; i < most; ++i) {
+        const double change = sweep(p);
+        if (i == 0) enough = converged_ * squared_impulses();
+        if (i + 1 == most || change <= enough) break;
+        accelerate(i > 0 && change <= last ? change / last : 0);
+        last = change;
     }
     for (std::size_t r = 0; r < p.robots.size(); ++r)
         std::copy_n(v_.data() + place_[r], p.robots[r]->type->paths.size(), v.data() + p.offsets[r]);
-    return progress.report();
-}
-
-/// Of the contact points, at these velocities.
-double RowSweeps::squared_motion(const Problem& p, const std::vector<double>& v) const {
-    double sum = 0;
-    for (std::size_t c = 0; c < contacts_.size(); ++c) {
-        const ContactRow& row = p.rows.contacts[c];
-        const jacobian::Along<double> u = jacobian::along(p.rows.columns, row.first, row.last, v);
-        const double u_1 = u.t1 - row.slip.target_1, u_2 = u.t2 - row.slip.target_2;
-        sum += u.n * u.n * contacts_[c].mass_n + (u_1 * u_1 + u_2 * u_2) * contacts_[c].mass_t;
-    }
-    return sum;
 }
 
 /// Velocities without rows, then with what the contacts carried last.
@@ -107,7 +95,7 @@ void RowSweeps::take_up(const Problem& p, int most, std::vector<double>& v) {
     v_ = v_free_;
     start_scalars(p, true);
     start_contacts(p, true);
-    sweep_all(p, {.most = most, .converged = converged_}, v);
+    sweep_all(p, most, v);
 }
 
 void RowSweeps::start_scalars(const Problem& p, bool again) {

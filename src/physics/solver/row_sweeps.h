@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "physics/solver/newton.h"
-#include "physics/solver/sweep_plan.h"
 
 namespace roboss {
 
@@ -21,10 +20,10 @@ class RowSweeps {
         double n = 0, t1 = 0, t2 = 0;
     };
 
-    /// Sweeps from the impulses that the contacts carried last (the normals hold them), or that all rows hold
-    /// if they are solved again. `v`: where the solve starts; ends as the velocities with the impulses found.
-    /// Torsional and rolling friction take no part.
-    SweepReport run(const Problem& p, const SweepPlan& plan, std::vector<double>& v);
+    /// At most `most` sweeps, fewer if they converge, from the impulses that the contacts carried last (the
+    /// normals hold them), or that all rows hold if they are solved again. `v` ends as the velocities with
+    /// the impulses found. Torsional and rolling friction take no part.
+    void run(const Problem& p, int most, std::vector<double>& v);
     /// Continues from there until they converge ten times closer.
     void go_on(const Problem& p, int most, std::vector<double>& v);
 
@@ -59,8 +58,7 @@ class RowSweeps {
     };
 
     void start(const Problem& p, std::size_t n);
-    SweepReport sweep_all(const Problem& p, const SweepPlan& plan, std::vector<double>& v);
-    double squared_motion(const Problem& p, const std::vector<double>& v) const;
+    void sweep_all(const Problem& p, int most, std::vector<double>& v);
     void start_scalars(const Problem& p, bool again);
     void start_contacts(const Problem& p, bool again);
     void add_joint(const Problem& p, const JointRow& row);
@@ -77,7 +75,7 @@ class RowSweeps {
     void accelerate(double share);
     void push(const Sides& sides, std::size_t vectors, std::size_t vector, double impulse);
 
-    double converged_ = 0;  // SweepPlan::converged
+    double converged_ = 0;  // squared change, relative to the squared impulses
     std::size_t joints_ = 0;
     std::vector<double> factors_;            // of all mass matrices, as tree_factor leaves them
     std::vector<std::size_t> factor_first_;  // by robot

@@ -1,7 +1,7 @@
-// When Gauss-Seidel sweeps over contacts end, and when what they found is the solution. Shared by those of
-// free bodies (lanes/lane_pair_sweeps.h) and of robots with joints (row_sweeps.h); decision 0037.
+// When Gauss-Seidel sweeps over the contacts of free bodies (lanes/lane_pair_sweeps.h) end, and when what
+// they found is the solution; decision 0037.
 //
-// Sums: impulses by effective mass (impulse^2 / mass) over all rows; motion likewise (speed^2 * mass) over
+// Sums: impulses by effective mass (impulse^2 / mass) over all points; motion likewise (speed^2 * mass) over
 // the contact points, with the speeds along them at the velocities that the solve starts from. Both are
 // energies and do not depend on the frame of reference.
 #pragma once
