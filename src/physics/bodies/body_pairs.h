@@ -33,8 +33,8 @@ struct PointSlot {
     Eight direction_n, direction_1, direction_2;  // search direction of the acceleration
 };
 
-/// Eight pairs of bodies or fewer. `b` of a pair with scenery, and both of a lane without a pair, are the
-/// body after the last one, which never moves.
+/// Eight pairs of bodies or fewer. `b` of a pair with scenery, and both of an unused lane, are a body that
+/// never moves: its index is the number of bodies.
 struct PairBatch {
     int a[8] = {}, b[8] = {};
     int pairs = 0;
@@ -42,9 +42,9 @@ struct PairBatch {
     std::size_t first = 0, last = 0;  // slots
 };
 
-/// Pairs take colours in their order, each the lowest that none of its bodies has (beyond 64 the first after
-/// all of theirs). Pairs of a colour fill
-/// batches: those of two bodies, then those with scenery, those with the most points first.
+/// Greedy graph colouring in the order of the pairs: each gets the lowest colour that neither body has; if
+/// the two have all of the first 64, the first one after every further colour that either has. Within a
+/// colour come pairs of two bodies, then pairs with scenery; in each group those with more points first.
 class PairBatches {
   public:
     /// Neighbours in `points` that join the same bodies are one pair.

@@ -190,7 +190,7 @@ bool BodySolver::settle_velocities(const Accuracy& accuracy) {
 /// Likewise the displacement of a pile.
 bool BodySolver::settle_displacement(const BodyPart& part) {
     const SweepPlan plan = pile_plan(part.problem.accuracy, 1);
-    if (island_.bodies.size() < kLargePile || plan.settled == 0 || hardly_moves()) return false;
+    if (island_.bodies.size() < kLargePile || plan.settle_tolerance == 0 || hardly_moves()) return false;
     const SweepReport report = sweep(plan);
     iterations_ += report.iterations();
     if (report.settled && keeps_apart()) {

@@ -1,9 +1,9 @@
 // When Gauss-Seidel sweeps over the contacts of free bodies (lanes/lane_pair_sweeps.h) end, and when what
 // they found is the solution; decision 0037.
 //
-// Sums: impulses by effective mass (impulse^2 / mass) over all points; motion likewise (speed^2 * mass) over
-// the contact points, with the speeds along them at the velocities that the solve starts from. Both are
-// energies and do not depend on the frame of reference.
+// Sums over all contact points, with m their effective masses: `impulses` is the sum of impulse^2 / m,
+// `change` that of (impulse change by a sweep)^2 / m, `motion` that of m speed^2 at the velocities that the
+// solve starts from. They are energies and do not depend on the frame of reference.
 #pragma once
 
 #include "model/model.h"
@@ -11,16 +11,19 @@
 namespace roboss {
 
 struct SweepPlan {
-    int most = 0;             // sweeps, at most
-    double converged = 1e-8;  // squared change by a sweep that ends them, relative to the squared impulses
-    double settled = 0;  // squared change by a sweep, relative to the motion, that is the solution; 0: never
-    int most_to_settle = 0;  // sweeps, at most, where there is motion to compare with
+    // A part at rest: sweeps at most, and the change / impulses at which they end; Newton's method goes on.
+    int most = 0;
+    double start_tolerance = 1e-8;
+    // A part that moves: the change / motion at which the result is the solution (0: never), and sweeps at
+    // most.
+    double settle_tolerance = 0;
+    int most_to_settle = 0;
 };
 
 struct SweepReport {
     bool settled = false;  // the impulses are the solution
     int sweeps = 0;
-    /// In iterations of Newton's method that take as long.
+    /// The number of Newton iterations that take as long as these sweeps.
     int iterations() const { return sweeps / 12; }
 };
 
@@ -28,7 +31,7 @@ struct SweepReport {
 /// velocities by about a thousandth of how fast the contact points move (root mean square).
 inline SweepPlan pile_plan(const Accuracy& accuracy, int most) {
     SweepPlan plan{.most = most};
-    if (accuracy.tolerance >= 1e-9) plan.settled = 1e-7, plan.most_to_settle = 300;
+    if (accuracy.tolerance >= 1e-9) plan.settle_tolerance = 1e-7, plan.most_to_settle = 300;
     return plan;
 }
 
@@ -41,7 +44,7 @@ class SweepProgress {
     void begin(double impulses, double motion);
     /// After each sweep. `change`: squared, of the impulses. True if that was the last.
     bool ends(double change);
-    /// What is left of the search direction.
+    /// Factor on the search direction (beta of nonlinear conjugate gradients); 0 starts it anew.
     double share() const { return share_; }
     const SweepReport& report() const { return report_; }
 

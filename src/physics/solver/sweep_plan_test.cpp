@@ -8,7 +8,8 @@
 namespace roboss {
 namespace {
 
-constexpr SweepPlan kPlan{.most = 3, .converged = 1e-8, .settled = 1e-7, .most_to_settle = 100};
+constexpr SweepPlan kPlan{
+    .most = 3, .start_tolerance = 1e-8, .settle_tolerance = 1e-7, .most_to_settle = 100};
 
 TEST(SweepProgress, SettlesAtAShareOfTheMotion) {
     SweepProgress progress(kPlan);
