@@ -2,8 +2,8 @@
 #include <gtest/gtest.h>
 
 #include <cstring>
-#include <filesystem>
-#include <fstream>
+
+#include <support/folder.h>
 
 #include "mesh/image_file.h"
 #include "mesh/mesh_file.h"
@@ -14,21 +14,10 @@ namespace {
 
 class GlbFile : public testing::Test {
   protected:
-    GlbFile() {
-        std::string pattern = (std::filesystem::temp_directory_path() / "roboss-glb-XXXXXX").string();
-        if (mkdtemp(pattern.data()) != nullptr) folder_ = pattern;
-    }
-    ~GlbFile() override {
-        std::error_code ignored;
-        if (!folder_.empty()) std::filesystem::remove_all(folder_, ignored);
-    }
-    std::string write(const std::string& bytes) const {
-        std::ofstream(folder_ + "/part.glb", std::ios::binary) << bytes;
-        return folder_ + "/part.glb";
-    }
+    std::string write(const std::string& bytes) const { return folder_.write("part.glb", bytes); }
 
   private:
-    std::string folder_;
+    test::Folder folder_;
 };
 
 std::string word(std::size_t value) {

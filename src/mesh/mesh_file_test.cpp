@@ -6,34 +6,16 @@
 
 #include <cstring>
 #include <filesystem>
-#include <fstream>
 #include <limits>
+
+#include <support/folder.h>
 
 #include "mesh/image_file.h"
 
 namespace roboss {
 namespace {
 
-class Folder {
-  public:
-    Folder() {
-        std::string pattern = (std::filesystem::temp_directory_path() / "roboss-mesh-XXXXXX").string();
-        if (mkdtemp(pattern.data()) != nullptr) path_ = pattern;
-    }
-    ~Folder() {
-        std::error_code ignored;
-        if (!path_.empty()) std::filesystem::remove_all(path_, ignored);
-    }
-    Folder(const Folder&) = delete;
-    Folder& operator=(const Folder&) = delete;
-    std::string write(const std::string& name, const std::string& bytes) const {
-        std::ofstream(path_ + "/" + name, std::ios::binary) << bytes;
-        return path_ + "/" + name;
-    }
-
-  private:
-    std::string path_;
-};
+using test::Folder;
 
 // A tetrahedron with corners at the origin and one metre along each axis.
 constexpr float kCorners[4][3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};

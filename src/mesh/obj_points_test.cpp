@@ -3,29 +3,19 @@
 
 #include <gtest/gtest.h>
 
-#include <filesystem>
-#include <fstream>
+#include <support/folder.h>
 
 namespace roboss {
 namespace {
 
 class ObjPoints : public ::testing::Test {
   protected:
-    ObjPoints() {
-        std::string pattern = (std::filesystem::temp_directory_path() / "roboss-obj-XXXXXX").string();
-        if (mkdtemp(pattern.data()) != nullptr) folder_ = pattern;
-    }
-    ~ObjPoints() override {
-        std::error_code ignored;
-        if (!folder_.empty()) std::filesystem::remove_all(folder_, ignored);
-    }
     Result<MeshSpec> read(const std::string& text) const {
-        std::ofstream(folder_ / "points.obj") << text;
-        return read_obj_points(folder_ / "points.obj");
+        return read_obj_points(folder_.write("points.obj", text));
     }
 
   private:
-    std::filesystem::path folder_;
+    test::Folder folder_;
 };
 
 TEST_F(ObjPoints, AreReadWithNamesNormalsAndBlankLinesBetween) {
