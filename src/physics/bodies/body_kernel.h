@@ -5,7 +5,7 @@
 #include <memory>
 
 #include "physics/bodies/body_island.h"
-#include "physics/solver/sweep_plan.h"
+#include "physics/bodies/sweep_plan.h"
 
 namespace roboss {
 

@@ -66,7 +66,7 @@ void compute(const BodyKernel& kernel, bool coupled, BodyIsland& s) {
     kernel.sweep(s, {.most = 5});
     s.bounds_stay = true;
     for (BodyPoint& p : s.points) p.f_n = p.swept_n, p.f_1 = p.swept_1, p.f_2 = p.swept_2;
-    kernel.sweep(s, {.most = 1, .settle_tolerance = 1e-7, .most_to_settle = 100});
+    kernel.sweep(s, {.most = 1, .most_to_settle = 100, .settle_tolerance = 1e-7});
 }
 
 bool same_bits(const Six& a, const Six& b) {

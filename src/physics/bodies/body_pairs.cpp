@@ -46,7 +46,7 @@ void PairBatches::arrange(std::size_t bodies, const std::vector<BodyPoint>& poin
     fill_batches(points, static_cast<int>(bodies));
 }
 
-void PairBatches::fill_batches(const std::vector<BodyPoint>& points, int nobody) {
+void PairBatches::fill_batches(const std::vector<BodyPoint>& points, int unused_body) {
     batches_.clear();
     std::size_t slots = 0;
     for (std::size_t k = 0; k < pairs_.size(); ++k) {
@@ -54,7 +54,7 @@ void PairBatches::fill_batches(const std::vector<BodyPoint>& points, int nobody)
         if (k == 0 || pairs_[k - 1].colour != pair.colour || pairs_[k - 1].scenery != pair.scenery ||
             batches_.back().pairs == 8) {
             PairBatch& batch = batches_.emplace_back();
-            std::ranges::fill(batch.a, nobody), std::ranges::fill(batch.b, nobody);
+            std::ranges::fill(batch.a, unused_body), std::ranges::fill(batch.b, unused_body);
             batch.first = slots, batch.last = slots + pair.points;
             batch.scenery = pair.scenery;
             slots = batch.last;

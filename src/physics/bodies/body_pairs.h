@@ -62,7 +62,7 @@ class PairBatches {
         std::uint32_t first = 0, points = 0;  // in `points`
     };
     std::uint32_t take_colour(int a, int b);
-    void fill_batches(const std::vector<BodyPoint>& points, int nobody);
+    void fill_batches(const std::vector<BodyPoint>& points, int unused_body);
 
     std::vector<Pair> pairs_;
     std::vector<PairBatch> batches_;

@@ -172,11 +172,10 @@ void BodySolver::take_swept() {
 /// The velocities by sweeps, if these are the solution.
 bool BodySolver::settle_velocities(const Accuracy& accuracy) {
     const std::size_t bodies = island_.bodies.size();
-    if (bodies == 1) return false;
-    const bool alone = sweeps_suffice(accuracy);
+    const bool alone = bodies > 1 && sweeps_suffice(accuracy);
     if (!alone) {
         residual_ = kernel_.balance(island_);
-        if (residual_ <= newton::kRoughly) return false;
+        if (bodies == 1 || residual_ <= newton::kRoughly) return false;
     }
     const int most = alone ? std::min(most_sweeps(bodies), kSweepsAlone) : most_sweeps(bodies);
     const bool may_settle = !alone && bodies >= kLargePile;
@@ -254,12 +253,7 @@ void BodySolver::start_from_sticking() {
 }
 
 void BodySolver::start() {
-    if (swept_) {
-        if (start_from_sweeps()) return;
-    } else {
-        residual_ = kernel_.balance(island_);
-        if (residual_ <= newton::kRoughly) return;
-    }
+    if (swept_ ? start_from_sweeps() : residual_ <= newton::kRoughly) return;
     start_from_sticking();
 }
 

@@ -6,8 +6,8 @@
 #include <cmath>
 
 #include "core/lanes_x86.h"
+#include "physics/bodies/sweep_plan.h"
 #include "physics/lanes/lane_six.h"
-#include "physics/solver/sweep_plan.h"
 
 namespace roboss {
 namespace {

@@ -1,5 +1,5 @@
 // See sweep_plan.h.
-#include "physics/solver/sweep_plan.h"
+#include "physics/bodies/sweep_plan.h"
 
 #include <algorithm>
 #include <cmath>

@@ -11,13 +11,12 @@
 namespace roboss {
 
 struct SweepPlan {
-    // A part at rest: sweeps at most, and the change / impulses at which they end; Newton's method goes on.
-    int most = 0;
-    double start_tolerance = 1e-8;
-    // A part that moves: the change / motion at which the result is the solution (0: never), and sweeps at
-    // most.
-    double settle_tolerance = 0;
-    int most_to_settle = 0;
+    // A part at rest. Newton's method starts from what the sweeps found.
+    int most = 0;                   // sweeps
+    double start_tolerance = 1e-8;  // they end at this change / impulses
+    // A part that moves. What the sweeps found is the solution if they reach the tolerance.
+    int most_to_settle = 0;       // sweeps
+    double settle_tolerance = 0;  // change / motion; 0: always as at rest
 };
 
 struct SweepReport {

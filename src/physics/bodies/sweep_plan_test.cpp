@@ -1,5 +1,5 @@
 // When sweeps end, and when what they found is the solution.
-#include "physics/solver/sweep_plan.h"
+#include "physics/bodies/sweep_plan.h"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@ namespace roboss {
 namespace {
 
 constexpr SweepPlan kPlan{
-    .most = 3, .start_tolerance = 1e-8, .settle_tolerance = 1e-7, .most_to_settle = 100};
+    .most = 3, .start_tolerance = 1e-8, .most_to_settle = 100, .settle_tolerance = 1e-7};
 
 TEST(SweepProgress, SettlesAtAShareOfTheMotion) {
     SweepProgress progress(kPlan);
