@@ -60,6 +60,41 @@ void mend_inertials(pugi::xml_node robot, const SourceFile& urdf, Diagnostics& d
     }
 }
 
+void mend_limit(pugi::xml_node joint, const SourceLocation& where, Diagnostics& diagnostics) {
+    const std::string type = joint.attribute("type").value(), name = joint.attribute("name").value();
+    if (type != "revolute" && type != "prismatic" && type != "continuous") return;
+    auto limit = joint.child("limit");
+    if (!limit && type == "continuous") return;
+    if (!limit) {
+        limit = joint.append_child("limit");
+        for (const char* bound : {"effort", "velocity"})
+            limit.append_attribute(bound) = "-1";  // none, in SDFormat
+        if (type == "revolute") joint.attribute("type").set_value("continuous");
+        limit.append_attribute("lower") = "-1e16";  // none, in SDFormat
+        limit.append_attribute("upper") = "1e16";
+        diagnostics.warning(where, "missing-limit",
+                            "joint '" + name + "' has no <limit>: it moves without limits",
+                            "Write <limit lower=\"...\" upper=\"...\" effort=\"...\" velocity=\"...\"/>.");
+        return;
+    }
+    for (const char* bound : {"effort", "velocity"}) {
+        if (limit.attribute(bound)) continue;
+        limit.append_attribute(bound) = "-1";
+        diagnostics.warning(where, "missing-limit",
+                            "<limit> of joint '" + name + "' has no " + bound + ": there is no bound on it",
+                            "Write " + std::string(bound) + "=\"...\".");
+    }
+}
+
+/// urdfdom refuses the file for what is missing.
+void mend_limits(pugi::xml_node robot, const SourceFile& urdf, Diagnostics& diagnostics) {
+    auto source = urdf.root().child("joint");
+    for (auto joint = robot.child("joint"); joint; joint = joint.next_sibling("joint")) {
+        mend_limit(joint, urdf.where(source), diagnostics);
+        source = source.next_sibling("joint");
+    }
+}
+
 /// libsdformat divides by the mass of links that it merges at fixed joints. One without mass says nothing
 /// more than none.
 void drop_empty_inertials(pugi::xml_node robot) {
@@ -204,6 +239,7 @@ void repair_urdf(pugi::xml_node robot, const SourceFile& urdf, Diagnostics& diag
     make_scenery(robot, urdf, diagnostics);
     mend_inertials(robot, urdf, diagnostics);
     drop_empty_inertials(robot);
+    mend_limits(robot, urdf, diagnostics);
     rename_scoped(robot, urdf, diagnostics);
     rename_joints(robot, urdf, diagnostics);
 }

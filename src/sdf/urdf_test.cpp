@@ -283,6 +283,28 @@ TEST(Urdf, SaysWhatIsLostWithALinkWithoutMass) {
     }
 }
 
+TEST(Urdf, WhatALimitDoesNotSayHasNoBound) {
+    std::string text = kArm;
+    const std::string numbers = " effort='20' velocity='3'";
+    text.erase(text.find(numbers), numbers.size());
+    const Loaded partly = load_text(text);
+    ASSERT_TRUE(partly.world) << partly.text();
+    const AxisSpec& axis = partly.world->prototypes[0].joints.back().axes[0];
+    EXPECT_DOUBLE_EQ(axis.upper, 1.5);
+    EXPECT_LT(axis.max_effort, 0);
+    EXPECT_EQ(partly.find("missing-limit")->severity, Severity::kWarning);
+    const std::string limit = "<limit lower='-1' upper='1.5'/>";
+    text.erase(text.find(limit), limit.size());
+    for (const char* type : {"revolute", "prismatic"}) {
+        std::string whole = text;
+        whole.replace(whole.find("revolute"), 8, type);
+        const Loaded loaded = load_text(whole);
+        ASSERT_TRUE(loaded.world) << loaded.text();
+        EXPECT_FALSE(loaded.world->prototypes[0].joints.back().axes[0].has_limits()) << type;
+        EXPECT_TRUE(loaded.find("missing-limit"));
+    }
+}
+
 TEST(Urdf, MimicJointsFollow) {
     std::string hand = kArm;
     const std::string finger =
