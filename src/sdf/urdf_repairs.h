@@ -19,6 +19,9 @@ namespace roboss::sdf_import {
 /// none at
 ///   all, as in MuJoCo and PyBullet;
 /// - a robot without mass and without a joint that moves becomes a static model;
+/// - a robot of which joints move on a root without mass stands fixed in the world by it, as in MuJoCo:
+/// libsdformat
+///   would leave out all of it;
 /// - a robot without a name gets that of its file.
 void repair_urdf(pugi::xml_node robot, const SourceFile& urdf, Diagnostics& diagnostics);
 

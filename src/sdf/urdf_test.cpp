@@ -283,6 +283,31 @@ TEST(Urdf, SaysWhatIsLostWithALinkWithoutMass) {
     }
 }
 
+TEST(Urdf, ARootWithoutMassIsFixedToTheWorld) {
+    const std::string cart =
+        "<link name='cart'><inertial><mass value='2'/><inertia ixx='1' iyy='1' izz='1' ixy='0' ixz='0' "
+        "iyz='0'/>"
+        "</inertial></link>";
+    const std::string slide =
+        "<joint name='s' type='prismatic'><parent link='rail'/><child link='cart'/><axis xyz='0 1 0'/>"
+        "<limit lower='-4' upper='4' effort='9' velocity='9'/></joint>";
+    const Loaded loaded =
+        load_text("<robot name='r'>\n<link name='rail'/>" + cart + slide + "</robot>", "r.urdf");
+    ASSERT_TRUE(loaded.world) << loaded.text();
+    EXPECT_FALSE(loaded.diagnostics.has_errors()) << loaded.text();
+    EXPECT_EQ(loaded.find("no-inertial")->where.line, 2) << loaded.text();
+    const ModelSpec& robot = loaded.world->prototypes.at(0);
+    EXPECT_TRUE(std::ranges::any_of(robot.joints, [](const JointSpec& j) { return j.name == "s"; }));
+    EXPECT_TRUE(std::ranges::any_of(robot.joints, [](const JointSpec& j) { return j.parent == "world"; }));
+    const Loaded held =
+        load_text("<robot name='r'><link name='rail'/>" + cart + slide +
+                  "<link name='foot'><inertial><mass value='1'/><inertia ixx='1' iyy='1' izz='1' "
+                  "ixy='0' ixz='0' iyz='0'/></inertial></link><joint name='f' type='fixed'><parent "
+                  "link='rail'/><child link='foot'/></joint></robot>");
+    ASSERT_TRUE(held.world) << held.text();
+    EXPECT_FALSE(held.find("no-inertial")) << "what is fixed to the root has mass";
+}
+
 TEST(Urdf, WhatALimitDoesNotSayHasNoBound) {
     std::string text = kArm;
     const std::string numbers = " effort='20' velocity='3'";
