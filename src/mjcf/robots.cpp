@@ -104,7 +104,6 @@ std::vector<Fate> Robots::fates_in(const Tree& tree, const std::vector<std::size
 Robots::Robots(Tree& tree, const std::vector<std::pair<std::size_t, std::size_t>>& tied,
                const Reading& reading)
     : tree_(tree),
-      reading_(reading),
       roots_(roots_in(tree)),
       fates_(fates_in(tree, roots_)),
       X_MB_(tree.bodies.size()),

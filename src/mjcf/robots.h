@@ -60,7 +60,6 @@ class Robots {
     void add_link(std::size_t body, const Pose& X);
 
     Tree& tree_;
-    const Reading& reading_;
     std::vector<std::size_t> roots_;
     std::vector<Fate> fates_;  // by root
     std::vector<Names> copy_;  // by root: what its names lose; empty where trees are tied to each other
