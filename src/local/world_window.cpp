@@ -77,7 +77,7 @@ std::size_t WorldStepper::step_large_batches(Tick from, Tick until, std::span<co
     const std::size_t groups = std::exchange(largest_group_, 0);
     const auto is_large = [&](const Batch& batch) {
         return batch.heaviest * static_cast<double>(pool_.threads()) > all &&
-               groups * 2 > batch.robots.size();
+               (groups * 2 > batch.robots.size() || batch.robots.size() == 1);
     };
     std::size_t large = 0;
     scratch_[0].use_team(Team(pool_));

@@ -61,6 +61,8 @@ bool RobotGroup::forward_kinematics() {
         robots_[k].ordered = call_.ordered[i] != 0;
         call_.bounds[i] = robots_[k].box;
     }
+    weight_ = 0;
+    for (const RobotWork& work : robots_) weight_ += weight_of(*work.type);
     bool fine = true;
     for (const RobotWork& work : robots_) {
         if (work.asleep) continue;
@@ -98,8 +100,7 @@ void RobotGroup::build_contact_islands() {
 
 /// Small groups are not worth waking other threads for. Reactions are kept in the order of the islands.
 Team RobotGroup::team() const {
-    constexpr std::size_t kWorthIt = 96;  // robots
-    return robots_.size() < kWorthIt || s_.keep_reactions ? Team() : s_.team;
+    return weight_ < kTeamFrom || s_.keep_reactions ? Team() : s_.team;
 }
 
 /// Tells each thread's islands about the group.
@@ -121,12 +122,18 @@ void RobotGroup::start_islands() {
 /// work.
 std::size_t RobotGroup::count_large() {
     using Members = std::span<const std::uint32_t>;
-    std::ranges::sort(s_.waiting, [](const Members& a, const Members& b) {
-        return std::pair(b.size(), a.front()) < std::pair(a.size(), b.front());
+    const auto weight = [&](const Members& members) {
+        if (weight_ == robots_.size()) return members.size();
+        std::size_t sum = 0;
+        for (const std::uint32_t m : members) sum += weight_of(*robots_[m].type);
+        return sum;
+    };
+    std::ranges::sort(s_.waiting, [&](const Members& a, const Members& b) {
+        return std::pair(weight(b), a.front()) < std::pair(weight(a), b.front());
     });
     std::size_t all = 0, large = 0;
-    for (const Members& members : s_.waiting) all += members.size();
-    while (large < s_.waiting.size() && s_.waiting[large].size() * 2 * team().size() > all) ++large;
+    for (const Members& members : s_.waiting) all += weight(members);
+    while (large < s_.waiting.size() && weight(s_.waiting[large]) * 2 * team().size() > all) ++large;
     return large;
 }
 

@@ -53,6 +53,7 @@ class RobotGroup {
     std::span<const std::uint32_t> chosen_;
     std::span<RobotWork> robots_;
     GroupScratch& s_;
+    std::size_t weight_ = 0;  // of all robots (weight_of)
 };
 
 template <class StepIsland>

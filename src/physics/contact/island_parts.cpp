@@ -41,7 +41,10 @@ void IslandParts::ByPart::sort(std::size_t parts, std::span<const std::uint32_t>
 SolveReport IslandParts::solve(Problem p, std::vector<double>& v, const Team& team) {
     const std::size_t count = p.robots.size();
     largest_part_ = static_cast<int>(count);
-    if (!has_parts(p)) return solvers_[0].islands.solve(p, v);
+    if (!has_parts(p)) {
+        solvers_[0].islands.share_with(team);
+        return solvers_[0].islands.solve(p, v);
+    }
     prepare(p, v.size());
     join_by_pushing(p, v);
     SolveReport report;
@@ -97,6 +100,8 @@ void IslandParts::solve_changed(const Problem& p, const Team& team, std::vector<
                                 SolveReport& report) {
     if (solvers_.size() < team.size()) solvers_.resize(team.size());
     reports_.resize(to_solve_.size());
+    for (PartSolver& solver : solvers_) solver.islands.share_with({});
+    if (to_solve_.size() == 1) solvers_[0].islands.share_with(team);
     team.run(to_solve_.size(), [&](std::size_t k, std::size_t worker) {
         reports_[k] = solve_part(p, to_solve_[k], solvers_[worker], v);
     });
@@ -272,6 +277,7 @@ void IslandParts::take_part(const Problem& p, std::size_t part, const std::vecto
     for (const std::uint32_t c : contacts_.of(part)) {
         s.local_contact[c] = static_cast<std::uint32_t>(s.rows.contacts.size());
         ContactRow& row = s.rows.contacts.emplace_back(p.rows.contacts[c]);
+        if (p.rows.keeps_places) s.rows.places.push_back(p.rows.places[c]);
         take_columns(p, s, row.first, row.last);
     }
     for (const std::uint32_t a : angulars_.of(part)) {
