@@ -94,8 +94,8 @@ class Side {
                 found.push_back(*std::ranges::max_element(reach, {}, at));
             }
         }
-        std::ranges::sort(found);
-        found.erase(std::ranges::unique(found).begin(), found.end());
+        std::sort(found.begin(), found.end());
+        found.erase(std::unique(found.begin(), found.end()), found.end());
         return found;
     }
 
