@@ -299,6 +299,7 @@ void measure(ConvexHull& hull) {
         hash.add(v.x), hash.add(v.y), hash.add(v.z);
     }
     hull.hash = hash.value();
+    hull.cells.build(hull.vertices);
 }
 
 /// Edges from the loops; false unless each has two faces and the whole is a ball (Euler).

@@ -66,6 +66,18 @@ void flip_features(Manifold& m, bool general) {
 
 Manifold collide(const Shape& a, const Transform& X_WA, const Shape& b, const Transform& X_WB,
                  double margin) {
+    const auto has_box = [](const Shape& s) {
+        return s.kind != ShapeKind::kPlane && s.kind != ShapeKind::kSurface;
+    };
+    // The guarantee of the header, to the last bit: what the broad phase may leave out is left out here too.
+    if (has_box(a) && has_box(b) &&
+        !overlaps(bounds(a, X_WA).inflated(0.5 * margin), bounds(b, X_WB).inflated(0.5 * margin)))
+        return {};
+    return collide_near(a, X_WA, b, X_WB, margin);
+}
+
+Manifold collide_near(const Shape& a, const Transform& X_WA, const Shape& b, const Transform& X_WB,
+                      double margin) {
     Manifold out;
     if (a.kind == ShapeKind::kSurface || b.kind == ShapeKind::kSurface) return out;
     const Posed A{a, X_WA}, B{b, X_WB};
@@ -73,12 +85,6 @@ Manifold collide(const Shape& a, const Transform& X_WA, const Shape& b, const Tr
     const bool straight = same_kind ? in_order(A, B) : a.kind < b.kind;
     const Posed& first = straight ? A : B;
     const Posed& second = straight ? B : A;
-    if (first.shape.kind != ShapeKind::kPlane) {
-        // The guarantee of the header, to the last bit: what the broad phase may leave out is left out here
-        // too.
-        if (!overlaps(bounds(a, X_WA).inflated(0.5 * margin), bounds(b, X_WB).inflated(0.5 * margin)))
-            return out;
-    }
     kPairs[static_cast<int>(first.shape.kind)][static_cast<int>(second.shape.kind)](first, second, margin,
                                                                                     out);
     if (!straight) {

@@ -33,4 +33,8 @@ struct Manifold {
 /// not overlap, the result is empty.
 Manifold collide(const Shape& a, const Transform& X_WA, const Shape& b, const Transform& X_WB, double margin);
 
+/// The same for a caller that has compared such boxes.
+Manifold collide_near(const Shape& a, const Transform& X_WA, const Shape& b, const Transform& X_WB,
+                      double margin);
+
 }  // namespace roboss

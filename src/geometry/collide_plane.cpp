@@ -65,10 +65,20 @@ void plane_ellipsoid(const Posed& plane, const Posed& ellipsoid, double margin, 
     add_below(out, ellipsoid.X.p + low, gap, margin, n, 0);
 }
 
+/// Quick: whether a hull is surely further off than the margin, whatever rounding does.
+bool is_clear(const Posed& plane, const Posed& hull, double margin) {
+    const Vec3 n = plane.axis(2);
+    const ConvexHull& of = *hull.shape.hull;
+    const double height = dot(n, hull.X.p - plane.X.p);
+    const double enough = margin + 1e-9 * (std::fabs(height) + of.radius);
+    return height - of.radius > enough || height - of.reach(transpose_times(hull.X.R, -n)) > enough;
+}
+
 // The corners of the face that looks most against the normal, of those at the lowest corner; features are the
 // corners' numbers.
 void plane_hull(const Posed& plane, const Posed& hull, double margin, Manifold& out) {
     const Vec3 n = plane.axis(2);
+    if (is_clear(plane, hull, margin)) return;
     const Feature face = ConvexBody(hull).feature(-n);
     out.n_W = -n;
     std::array<Vec3, Feature::kMaxPoints> points;

@@ -84,8 +84,7 @@ Vec3 ConvexBody::support(const Vec3& d_W) const {
             return R * (scaled(stretched, s.half) / norm(stretched));
         }
         default:
-            last_ = s.hull->furthest(d, last_);
-            return R * s.hull->vertices[last_];
+            return R * s.hull->vertices[s.hull->furthest(d)];
     }
 }
 
@@ -117,14 +116,14 @@ void ConvexBody::near_hull(const Vec3& d_W, double sine, NearFeatures& found) co
     const Mat3& R = posed_->X.R;
     const Vec3 d = transpose_times(R, d_W);
     const double cosine = std::sqrt(1.0 - sine * sine);
-    last_ = hull.furthest(d, last_);
-    for (std::uint32_t k = hull.vertex_first[last_]; k < hull.vertex_first[last_ + 1]; ++k) {
+    const std::uint32_t vertex = hull.furthest(d);
+    for (std::uint32_t k = hull.vertex_first[vertex]; k < hull.vertex_first[vertex + 1]; ++k) {
         const ConvexHull::Face& face = hull.faces[hull.vertex_faces[k]];
         if (dot(d, face.n) > cosine) {
             found.add_normal(R * face.n);
             for (std::uint32_t i = face.first; i < face.first + std::min(face.count, 8u); ++i) {
                 const ConvexHull::Edge& edge = hull.edges[hull.face_edges[i]];
-                if (edge.a != last_ && edge.b != last_ && std::fabs(dot(d, edge.direction)) < sine)
+                if (edge.a != vertex && edge.b != vertex && std::fabs(dot(d, edge.direction)) < sine)
                     found.add_edge(R * edge.direction);
             }
         }

@@ -92,7 +92,6 @@ class ConvexBody {
     double ball_ = 0, size_ = 0, inradius_ = 0;
     std::array<Vec3, 3> corners_;  // of a triangle, W
     Vec3 normal_;
-    mutable std::uint32_t last_ = 0;  // vertex of a hull where the next climb begins
 };
 
 }  // namespace roboss::narrow

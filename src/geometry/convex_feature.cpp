@@ -41,8 +41,7 @@ Vec3 ConvexBody::face_normal(const Vec3& d) const {
         case Core::kHull: {
             const ConvexHull& hull = *posed_->shape.hull;
             const Vec3 d_S = transpose_times(posed_->X.R, d);
-            last_ = hull.furthest(d_S, last_);
-            return posed_->X.R * hull.faces[hull.face_along(d_S, last_)].n;
+            return posed_->X.R * hull.faces[hull.face_along(d_S, hull.furthest(d_S))].n;
         }
         case Core::kTriangle:
             return dot(d, normal_) < 0.0 ? -normal_ : normal_;
@@ -153,8 +152,8 @@ Feature ConvexBody::box_line(const Vec3& d, double tolerance) const {
 Feature ConvexBody::hull_face(const Vec3& d_W) const {
     const ConvexHull& hull = *posed_->shape.hull;
     const Vec3 d = transpose_times(posed_->X.R, d_W);
-    last_ = hull.furthest(d, last_);
-    const std::uint32_t number = hull.face_along(d, last_);
+    const std::uint32_t vertex = hull.furthest(d);
+    const std::uint32_t number = hull.face_along(d, vertex);
     const ConvexHull::Face& face = hull.faces[number];
     const auto vertex_count = static_cast<std::uint32_t>(hull.vertices.size());
     const auto edge_count = static_cast<std::uint32_t>(hull.edges.size());
@@ -164,7 +163,7 @@ Feature ConvexBody::hull_face(const Vec3& d_W) const {
     // A face of very many corners is thinned out evenly, from the furthest one on.
     const auto kept = std::min(face.count, static_cast<std::uint32_t>(Feature::kMaxPoints));
     std::uint32_t first = 0;
-    while (kept < face.count && hull.face_vertices[face.first + first] != last_) ++first;
+    while (kept < face.count && hull.face_vertices[face.first + first] != vertex) ++first;
     for (std::uint32_t k = 0; k < kept; ++k) {
         const std::uint32_t i = face.first + (first + k * face.count / kept) % face.count;
         f.add(posed_->X * hull.vertices[hull.face_vertices[i]], hull.face_vertices[i] & 0xFFFFu,
@@ -176,10 +175,10 @@ Feature ConvexBody::hull_face(const Vec3& d_W) const {
 Feature ConvexBody::hull_line(const Vec3& d_W, double tolerance) const {
     const ConvexHull& hull = *posed_->shape.hull;
     const Vec3 d = transpose_times(posed_->X.R, d_W);
-    last_ = hull.furthest(d, last_);
+    const std::uint32_t vertex = hull.furthest(d);
     double flattest = tolerance;
     std::uint32_t best = 0xFFFFFFFFu;
-    for (std::uint32_t k = hull.vertex_first[last_]; k < hull.vertex_first[last_ + 1]; ++k) {
+    for (std::uint32_t k = hull.vertex_first[vertex]; k < hull.vertex_first[vertex + 1]; ++k) {
         const double along = std::fabs(dot(d, hull.edges[hull.vertex_edges[k]].direction));
         if (along < flattest || (along == flattest && best == 0xFFFFFFFFu))
             flattest = along, best = hull.vertex_edges[k];
@@ -187,7 +186,7 @@ Feature ConvexBody::hull_line(const Vec3& d_W, double tolerance) const {
     Feature f;
     const auto vertex_count = static_cast<std::uint32_t>(hull.vertices.size());
     if (best == 0xFFFFFFFFu) {
-        f.add(posed_->X * hull.vertices[last_], last_, last_);
+        f.add(posed_->X * hull.vertices[vertex], vertex, vertex);
     } else {
         const ConvexHull::Edge& edge = hull.edges[best];
         const std::uint32_t name = (vertex_count + best) & 0xFFFFu;

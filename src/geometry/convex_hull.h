@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/result.h"
+#include "geometry/direction_cells.h"
 #include "geometry/shape.h"
 #include "math/vec3.h"
 
@@ -37,8 +38,12 @@ struct ConvexHull {
     double radius = 0, inradius = 0;                        // about the centroid
     std::uint64_t hash = 0;                                 // of the vertices
 
-    /// Number of the vertex furthest along d (any length). `start`: where a large hull begins to climb.
-    std::uint32_t furthest(const Vec3& d, std::uint32_t start = 0) const;
+    DirectionCells cells;  // of the vertices, unless they are few
+
+    /// Number of the vertex furthest along d (any length), the lowest of equals.
+    std::uint32_t furthest(const Vec3& d) const;
+    /// d.v of that vertex.
+    double reach(const Vec3& d) const;
     /// Of the faces at a vertex, the one that looks most along d.
     std::uint32_t face_along(const Vec3& d, std::uint32_t vertex) const;
 };

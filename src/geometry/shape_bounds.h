@@ -55,15 +55,35 @@ Vec3T<T> of(const Shape& s, const Mat3T<T>& R) {
     return {kInfinity, kInfinity, kInfinity};
 }
 
+/// By how far a hull reaches along d; in each lane by itself.
+template <class T>
+T of_hull(const Vec3T<T>& d, const ConvexHull& hull) {
+    if constexpr (std::is_same_v<T, double>) {
+        return hull.reach(d);
+    } else {
+        T result{};
+        for (std::size_t i = 0; i < kLanesOf<T>; ++i)
+            set_lane(result, i, hull.reach({lane(d.x, i), lane(d.y, i), lane(d.z, i)}));
+        return result;
+    }
+}
+
 }  // namespace extent
 
 /// Box in W of a shape at X_WS, of any kind but a surface; see bounds().
 template <class T>
 AabbT<T> solid_bounds(const Shape& shape, const TransformT<T>& X_WS) {
     if (shape.kind == ShapeKind::kHull) {
-        AabbT<T> box;
-        for (const Vec3& v : shape.hull->vertices) box.include(X_WS * broadcast<T>(v));
-        return box;
+        // Where there are no cells, one look at each vertex serves all six directions.
+        if (shape.hull->cells.empty()) {
+            AabbT<T> box;
+            for (const Vec3& v : shape.hull->vertices) box.include(X_WS * broadcast<T>(v));
+            return box;
+        }
+        const Mat3T<T>& R = X_WS.R;
+        const auto reach = [&](const Vec3T<T>& d) { return extent::of_hull(d, *shape.hull); };
+        return {X_WS.p - Vec3T<T>{reach(-R.r0), reach(-R.r1), reach(-R.r2)},
+                X_WS.p + Vec3T<T>{reach(R.r0), reach(R.r1), reach(R.r2)}};
     }
     const Vec3T<T> h = extent::of(shape, X_WS.R);
     return {X_WS.p - h, X_WS.p + h};

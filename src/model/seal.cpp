@@ -79,6 +79,7 @@ void seal(Model& model) {
         type.radios.clear();
         for (std::uint32_t i = 0; i < type.sensors.size(); ++i)
             if (type.sensors[i].spec.as<RadioSpec>() != nullptr) type.radios.push_back(i);
+        type.self_blocks = SelfBlocks(type.shapes, type.self_pairs);
         type.elimination = joint_elimination(type);
         type.hash = type_hash(type);
     }

@@ -225,7 +225,7 @@ void ContactFinder::with_static(const Model& model, std::span<const RobotWork> r
     const Pair pair{static_cast<int>(a), -1, s, i, shape.body, -1};
     const std::uint32_t keep = points_max(shape.material, scenery.material);
     if (scenery.shape.kind == ShapeKind::kSurface) return with_surface(model, robots, pair, keep, contacts);
-    Manifold manifold = collide(shape.shape, placed.X_WS, scenery.shape, scenery.X_WS, placed.margin);
+    Manifold manifold = collide_near(shape.shape, placed.X_WS, scenery.shape, scenery.X_WS, placed.margin);
     if (scenery.shape.kind != ShapeKind::kPlane && may_pass(manifold, placed.margin - kBaseMargin))
         return add_judged(pair, course(model, robots, pair.robot_a, s),
                           resting_course(scenery.shape, scenery.X_WS), model.dt_s,
@@ -318,7 +318,7 @@ void ContactFinder::collide_shapes(const Model& model, std::span<const RobotWork
     pair.body_a = a.body, pair.body_b = b.body;
     const double margin = wa.margin + wb.margin;
     const std::uint32_t keep = points_max(a.material, b.material);
-    Manifold manifold = collide(a.shape, wa.X_WS, b.shape, wb.X_WS, margin);
+    Manifold manifold = collide_near(a.shape, wa.X_WS, b.shape, wb.X_WS, margin);
     const bool has_plane = a.shape.kind == ShapeKind::kPlane || b.shape.kind == ShapeKind::kPlane;
     if (sweeps && !has_plane && may_pass(manifold, margin - 2 * kBaseMargin))
         return add_judged(pair, course(model, robots, pair.robot_a, pair.shape_a),
@@ -327,13 +327,36 @@ void ContactFinder::collide_shapes(const Model& model, std::span<const RobotWork
     add_points(manifold, pair, keep, contacts);
 }
 
+/// Bodies first, then the pairs of shapes whose boxes overlap, in the order of RobotType::self_pairs.
 void ContactFinder::with_itself(const Model& model, std::span<const RobotWork> robots, std::size_t a,
                                 std::vector<Contact>& contacts) {
+    const RobotType& type = *robots[a].type;
+    const std::vector<ShapeWork>& shapes = robots[a].shapes;
+    boxes_.assign(type.bodies.size() + 1, {});
+    for (std::size_t s = 0; s < shapes.size(); ++s)
+        boxes_[static_cast<std::size_t>(type.shapes[s].body + 1)].include(shapes[s].box);
+    candidates_.clear();
+    for (const SelfBlocks::Block& block : type.self_blocks.blocks) {
+        const Aabb& other = boxes_[static_cast<std::size_t>(block.body_b + 1)];
+        if (!overlaps(boxes_[static_cast<std::size_t>(block.body_a + 1)], other)) continue;
+        std::size_t last = shapes.size();
+        bool is_near = false;
+        for (const std::uint32_t i : std::span(type.self_blocks.pairs).subspan(block.first, block.count)) {
+            const auto s = static_cast<std::size_t>(type.self_pairs[i].first);
+            if (s != last) is_near = overlaps(shapes[s].box, other), last = s;
+            if (is_near &&
+                overlaps(shapes[s].box, shapes[static_cast<std::size_t>(type.self_pairs[i].second)].box))
+                candidates_.push_back(i);
+        }
+    }
+    std::ranges::sort(candidates_);
     const auto robot = static_cast<int>(a);
-    for (const auto& [s, t] : robots[a].type->self_pairs)
+    for (const std::uint32_t i : candidates_) {
+        const auto [s, t] = type.self_pairs[i];
         collide_shapes(model, robots,
                        {robot, robot, static_cast<std::size_t>(s), static_cast<std::size_t>(t)}, true,
                        contacts);
+    }
 }
 
 void ContactFinder::with_robot(const Model& model, std::span<const RobotWork> robots, std::size_t a,
@@ -348,10 +371,13 @@ void ContactFinder::meet_robot(const Model& model, std::span<const RobotWork> ro
     if (model.robots[wa.id.index()].family == model.robots[wb.id.index()].family && !wa.type->self_collide)
         return;
     const bool may_be_bonded = bonds_ != nullptr && wa.bonded && wb.bonded;
+    candidates_.clear();
+    for (std::uint32_t t = 0; t < wb.shapes.size(); ++t)
+        if (overlaps(wb.shapes[t].box, wa.box)) candidates_.push_back(t);
     for (std::size_t s = 0; s < wa.shapes.size(); ++s) {
         if (!overlaps(wa.shapes[s].box, wb.box)) continue;
         const int body_a = wa.type->shapes[s].body;
-        for (std::size_t t = 0; t < wb.shapes.size(); ++t) {
+        for (const std::uint32_t t : candidates_) {
             const int body_b = wb.type->shapes[t].body;
             if (body_a < 0 && body_b < 0) continue;  // neither can move
             if (may_be_bonded && bonds_->joins(static_cast<int>(a), body_a, static_cast<int>(b), body_b))

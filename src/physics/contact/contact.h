@@ -133,11 +133,11 @@ class ContactFinder {
     std::unique_ptr<FreeCourses> free_courses_;
     std::vector<NearMiss> near_misses_;
     std::vector<double> first_hits_;         // by robot, s
-    std::vector<std::uint32_t> candidates_;  // scenery near a robot, and its boxes
-    std::vector<Aabb> candidate_boxes_;
+    std::vector<std::uint32_t> candidates_;  // what is near a robot: scenery, shapes, pairs of its own
+    std::vector<Aabb> candidate_boxes_;      // of the scenery
     std::vector<std::uint32_t> awake_;
     std::vector<RobotPair> pairs_;  // sorted
-    std::vector<Aabb> boxes_;       // of the robots
+    std::vector<Aabb> boxes_;       // of the robots, or of one robot's bodies
     BoxStrips strips_;
     std::vector<std::uint32_t> places_;  // by robot: of its pairs, as they are sorted
     std::vector<RobotPair> sorted_;
