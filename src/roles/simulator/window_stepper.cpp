@@ -25,7 +25,6 @@ WindowStepper::WindowStepper(std::shared_ptr<const Model> model, ThreadPool& poo
       options_(std::move(options)),
       scratch_(pool.threads()),
       profiles_(pool.threads()),
-      largest_groups_(pool.threads()),
       lane_groups_(pool.threads()) {
     for (StepScratch& scratch : scratch_) scratch.use_lanes(options_.lanes);
 }
@@ -101,17 +100,17 @@ WindowResult WindowStepper::step(const Assignment& assignment, StateStore& store
     return std::move(job.result);
 }
 
-/// All threads step an island together if it has more than their share of the robots, and most of its robots
-/// may meet. Such islands are the first; returns how many.
+/// All threads step an island together if it has more than their share of the robots. Such islands are the
+/// first; returns how many.
 std::size_t WindowStepper::step_large_batches(Job& job) {
-    const std::size_t groups = std::ranges::max(largest_groups_), robots = job.assignment.robots.size();
-    std::ranges::fill(largest_groups_, 0);
+    constexpr std::size_t kWorthIt = 96;  // robots: fewer are not shared out (physics/step.cpp)
+    const std::size_t robots = job.assignment.robots.size();
     if (in_lockstep(job.assignment)) return 0;
     scratch_[0].use_team(Team(pool_));
     std::size_t large = 0;
     for (; large + 1 < batch_offsets_.size(); ++large) {
         const std::size_t own = job.robots(sequence_[batch_offsets_[large]]).size();
-        if (own * threads() <= robots || groups * 2 <= own) break;
+        if (own < kWorthIt || own * threads() <= robots) break;
         step_batch(job, large, 0);
     }
     scratch_[0].use_team({});
@@ -176,8 +175,6 @@ bool WindowStepper::step_tick(Job& job, std::size_t island, Tick tick, std::span
         step_island(*model_, tick, robots, std::span(states_).subspan(first, robots.size()), orders,
                     std::span(bounds_).subspan(first, robots.size()), scratch_[worker]);
     profiles_[worker] += report.profile;
-    largest_groups_[worker] =
-        std::max(largest_groups_[worker], static_cast<std::size_t>(report.largest_group));
     sweep(job, island, orders);
     for (const float effort : read_efforts(scratch_[worker])) count(island, effort);
     IslandResult& outcome = job.result.islands[island];
