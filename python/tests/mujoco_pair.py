@@ -37,8 +37,9 @@ class RobotPair:
         self.order = roboss.MujocoOrder(self.robot)
         numbers = {body: b for b, body in enumerate(names_of_bodies(model))}
         root = numbers.get(name, 0)
-        copy = name.removeprefix(self.robot.links[0])  # links of copies (<replicate>) have the names of the original
-        own = {link: numbers.get(link, numbers.get(link + copy)) for link in self.robot.links}
+        # Links of copies (<replicate>, <attach>) have the names of the original.
+        prefix, _, suffix = name.partition(self.robot.links[0])
+        own = {link: numbers.get(prefix + link + suffix, numbers.get(link)) for link in self.robot.links}
         for k in range(model.nbody - root):  # bodies without names, in copies
             if own.get(f"body_{k}", 0) is None:
                 own[f"body_{k}"] = root + k

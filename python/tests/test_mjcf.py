@@ -17,7 +17,7 @@ def mjcf(body, rest=""):
 
 
 def test_there_are_files():
-    assert len(FILES) >= 11
+    assert len(FILES) >= 12
 
 
 @pytest.mark.parametrize("path", FILES, ids=lambda path: path.stem)

@@ -57,9 +57,13 @@ Error Journal::damaged(const std::string& what) const {
     return {path_ + " is damaged: " + what, kAnother, "journal-damaged"};
 }
 
-Result<Journal> Journal::open(const std::string& path, bool thorough) {
+bool Journal::is_small(const std::string& path) {
     std::error_code error;
-    return open_as(path, thorough || std::filesystem::file_size(path, error) <= kLookedThrough_bytes);
+    return std::filesystem::file_size(path, error) <= kLookedThrough_bytes;
+}
+
+Result<Journal> Journal::open(const std::string& path, bool thorough) {
+    return open_as(path, thorough || is_small(path));
 }
 
 Result<Journal> Journal::open_own(const std::string& path) {

@@ -58,6 +58,8 @@ class Journal {
     static Result<Journal> open(const std::string& path, bool thorough = false);
     /// Of a journal that this process writes: the pages of the file are not checked.
     static Result<Journal> open_own(const std::string& path);
+    /// Whether open() checks every page of a file of this size.
+    static bool is_small(const std::string& path);
     /// Reads what has been written since: new branches, checkpoints, log. After an Error the journal must not
     /// be used.
     Result<> refresh();

@@ -225,6 +225,9 @@ Result<const aiScene*> open_scene(Assimp::Importer& importer, const std::string&
         return importer.ReadFileFromMemory(text.data(), text.size(), aiProcess_Triangulate, "dae");
     };
     const std::string text = extension == ".dae" ? text_of(path) : std::string();
+    if (const std::string word = bad_index_in_collada(text); !word.empty())
+        return Error{"is no mesh that can be read: '" + word + "' stands among the indices of its faces",
+                     "Export it anew."};
     const std::string plain = text.empty() ? text : collada_without_skins(text);
     const aiScene* scene =
         plain.empty() ? importer.ReadFile(path, aiProcess_Triangulate) : read_collada(plain);

@@ -236,6 +236,8 @@ TEST(MeshFile, EveryFaultIsNamed) {
     expect_error("words.obj", "nothing of use\n", "mesh");
     expect_error("cut.stl", binary_stl().substr(0, 90), "mesh");
     expect_error("cut.dae", dae("1", "Z_UP").substr(0, 300), "mesh");
+    std::string word = dae("1", "Z_UP");
+    expect_error("word.dae", word.insert(word.find("<p>") + 3, "1e9 "), "'1e9'");
     expect_error("cloud.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\n", "");
     expect_error("kind.xyz", "1 2 3", "xyz");
     expect_error("nan.stl", ascii_stl("nan"), "");

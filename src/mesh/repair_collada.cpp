@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cctype>
 #include <map>
+#include <string_view>
 
 namespace roboss {
 namespace {
@@ -117,6 +118,27 @@ std::string repaired_collada(const std::string& text) {
     for (const char* element : {"texture", "library_images", "library_animations", "library_controllers"})
         result = without(std::move(result), element);
     return result;
+}
+
+std::string bad_index_in_collada(const std::string& text) {
+    constexpr std::string_view kLists[] = {"p", "h", "v", "vcount"};
+    const auto in_list = [](char c) { return is_space(c) || (begins_number(c) && c != '.'); };
+    for (std::size_t open = 0; (open = text.find('<', open)) != std::string::npos; ++open) {
+        const std::size_t name_end = text.find_first_of(" \t\r\n/>", open + 1);
+        const std::size_t tag_end = text.find('>', open);
+        if (name_end == std::string::npos || tag_end == std::string::npos) break;
+        const std::string_view name = std::string_view(text).substr(open + 1, name_end - open - 1);
+        if (std::ranges::find(kLists, name) == std::end(kLists) || text[tag_end - 1] == '/') continue;
+        const std::size_t end = std::min(text.find('<', tag_end), text.size());
+        std::size_t at = tag_end + 1;
+        while (at < end && in_list(text[at])) ++at;
+        if (at == end) continue;
+        std::size_t first = at, last = at;
+        while (first > tag_end + 1 && !is_space(text[first - 1])) --first;
+        while (last < end && !is_space(text[last])) ++last;
+        return text.substr(first, std::min<std::size_t>(last - first, 40));
+    }
+    return {};
 }
 
 }  // namespace roboss

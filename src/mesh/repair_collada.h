@@ -13,4 +13,8 @@ std::string repaired_collada(const std::string& text);
 /// it has none. assimp 5.2 ends the program over weights that are not there.
 std::string collada_without_skins(const std::string& text);
 
+/// The first word in a list of indices (<p>, <h>, <v>, <vcount>) that is no integer; empty: none. assimp 5.2
+/// does not go on behind such a word, and takes all memory.
+std::string bad_index_in_collada(const std::string& text);
+
 }  // namespace roboss

@@ -36,6 +36,15 @@ TEST(RepairCollada, SkinsAndMorphsBecomeTheirGeometry) {
         EXPECT_LE(collada_without_skins(library.substr(0, length)).size(), length);
 }
 
+TEST(RepairCollada, AnIndexThatIsNoNumberIsFound) {
+    EXPECT_EQ(bad_index_in_collada("<p>0 1 2\n-3</p><vcount>3</vcount><param>x</param><v/>"), "");
+    EXPECT_EQ(bad_index_in_collada("<p>0 1</p><p material='m'>0 1x 2</p>"), "1x");
+    EXPECT_EQ(bad_index_in_collada("<vcount>3 1e99 </vcount>"), "1e99");
+    EXPECT_EQ(bad_index_in_collada("<polygons><p>0 1.5</p></polygons>"), "1.5");
+    EXPECT_EQ(bad_index_in_collada("<p>0 nan"), "nan");
+    EXPECT_EQ(bad_index_in_collada("<p"), "");
+}
+
 TEST(RepairCollada, TextThatIsCutShortDoesNoHarm) {
     const std::string whole = "<library_images><image/></library_images><p> 1 2</p><texture/>";
     for (std::size_t length = 0; length <= whole.size(); ++length)

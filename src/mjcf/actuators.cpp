@@ -17,13 +17,15 @@ class ActuatorReader {
   public:
     ActuatorReader(Robots& robots, const Reading& reading) : robots_(robots), r_(reading) {}
 
+    /// Finds what each actuator drives, and adds its rotor.
     void read() {
-        std::vector<Driven> driven;
         for (const Element& element : r_.document.in_sections("actuator"))
-            if (auto found = read_one(element)) driven.push_back(std::move(*found));
-        for (const Driven& d : driven)  // before damping ratios, which depend on rotors
-            d.axis->armature += d.drive.gear * d.drive.gear * d.drive.armature;
-        for (const Driven& d : driven) set_motor(d);
+            if (auto found = read_one(element)) driven_.push_back(std::move(*found));
+        for (const Driven& d : driven_) d.axis->armature += d.drive.gear * d.drive.gear * d.drive.armature;
+    }
+    /// After all rotors, on which damping ratios depend.
+    void set_motors() {
+        for (const Driven& d : driven_) set_motor(d);
     }
 
   private:
@@ -52,7 +54,7 @@ class ActuatorReader {
         std::vector<Transmission> parts;
         for (const Element& part : r_.document.children(fixed, "joint")) {
             const Attributes source({part}, r_.diagnostics);
-            const auto place = robots_.tree().find_joint(source.text("joint"));
+            const auto place = robots_.tree().find_joint(r_.names.full(source.text("joint")));
             JointSpec* const joint = place ? robots_.joint_of(*place) : nullptr;
             if (joint == nullptr || joint->axes.size() != 1) return std::nullopt;
             if (!parts.empty() && !robots_.same_model(place->body, parts.front().place.body))
@@ -89,9 +91,9 @@ class ActuatorReader {
             return no_effect(source, "an actuator that drives no joint (but a site, body or crank)",
                              "Drive the joints themselves.");
         const std::string name = source.text("joint", source.text("jointinparent"));
-        const auto place = robots_.tree().find_joint(name);
+        const auto place = robots_.tree().find_joint(r_.names.full(name));
         if (!place) {
-            r_.report_unknown(source.where(), "unknown-joint",
+            r_.report_unknown(source.where(), {name}, "unknown-joint",
                               "an actuator names the joint '" + name + "', which the file does not have",
                               "Check the name.");
             return std::nullopt;
@@ -119,7 +121,7 @@ class ActuatorReader {
 
     std::nullopt_t no_effect(const Attributes& source, const std::string& what,
                              const std::string& remedy) const {
-        r_.diagnostics.warning(source.where(), "ignored-actuator", what + " has no effect", remedy);
+        r_.warn(source.where(), "ignored-actuator", what + " has no effect", remedy);
         return std::nullopt;
     }
 
@@ -157,6 +159,7 @@ class ActuatorReader {
     void report_rest(const Driven& driven) const {
         const Drive& drive = driven.drive;
         const auto note = [&](const std::string& what) {
+            if (r_.quiet) return;
             r_.diagnostics.note(driven.source.where(), "ignored-attribute",
                                 what + " of an actuator has no effect", "Do it in the control program.");
         };
@@ -168,12 +171,16 @@ class ActuatorReader {
 
     Robots& robots_;
     const Reading& r_;
+    std::vector<Driven> driven_;
 };
 
 }  // namespace
 
-void read_actuators(Robots& robots, const Reading& reading) {
-    ActuatorReader(robots, reading).read();
+void read_actuators(Robots& robots, std::span<const Reading> parts) {
+    std::vector<ActuatorReader> readers;
+    for (const Reading& part : parts) readers.emplace_back(robots, part);
+    for (ActuatorReader& reader : readers) reader.read();
+    for (ActuatorReader& reader : readers) reader.set_motors();
 }
 
 }  // namespace roboss::mjcf

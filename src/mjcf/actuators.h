@@ -2,10 +2,12 @@
 // motors.
 #pragma once
 
+#include <span>
+
 #include "mjcf/robots.h"
 
 namespace roboss::mjcf {
 
-void read_actuators(Robots& robots, const Reading& reading);
+void read_actuators(Robots& robots, std::span<const Reading> parts);
 
 }  // namespace roboss::mjcf

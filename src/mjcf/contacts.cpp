@@ -30,25 +30,23 @@ void set_friction(const Attributes& source, GeomPart& geom) {
     geom.surface.mu = geom.surface.mu2 = friction[0];
 }
 
-}  // namespace
-
-void read_contact_pairs(Tree& tree, const Reading& reading) {
-    std::vector<unsigned> bits = free_bits(tree);
+void read_pairs(Tree& tree, const Reading& reading, std::vector<unsigned>& bits) {
     for (const Element& element : reading.document.in_sections("contact")) {
         if (std::string(element.node.name()) != "pair" || !reading.settings.contacts) continue;
         const Attributes source = reading.defaults.of(element);
-        GeomPart *a = tree.find_geom(source.text("geom1")), *b = tree.find_geom(source.text("geom2"));
+        GeomPart *a = tree.find_geom(reading.names.full(source.text("geom1"))),
+                 *b = tree.find_geom(reading.names.full(source.text("geom2")));
         if (a == nullptr || b == nullptr) {
-            reading.report_unknown(element.where(), "unknown-geom",
-                                   "a <pair> names a geom that the file does not have",
+            reading.report_unknown(element.where(), {source.text("geom1"), source.text("geom2")},
+                                   "unknown-geom", "a <pair> names a geom that the file does not have",
                                    "Check geom1 and geom2.");
             continue;
         }
         if (may_touch(*a, *b)) continue;
         if (bits.empty()) {
-            reading.diagnostics.warning(element.where(), "ignored-element",
-                                        "<pair> has no effect: the masks of the geoms have no bit left",
-                                        "Let the geoms collide by contype and conaffinity.");
+            reading.warn(element.where(), "ignored-element",
+                         "<pair> has no effect: the masks of the geoms have no bit left",
+                         "Let the geoms collide by contype and conaffinity.");
             continue;
         }
         for (GeomPart* geom : {a, b}) set_friction(source, *geom), geom->in_pair = true;
@@ -57,15 +55,15 @@ void read_contact_pairs(Tree& tree, const Reading& reading) {
     }
 }
 
-void read_contact_excludes(Robots& robots, const Reading& reading) {
+void read_excludes(Robots& robots, const Reading& reading) {
     for (const Element& element : reading.document.in_sections("contact")) {
         if (std::string(element.node.name()) != "exclude") continue;
         const Attributes source({element}, reading.diagnostics);
-        const BodyPart *a = robots.tree().find_body(source.text("body1")),
-                       *b = robots.tree().find_body(source.text("body2"));
+        const BodyPart *a = robots.tree().find_body(reading.names.full(source.text("body1"))),
+                       *b = robots.tree().find_body(reading.names.full(source.text("body2")));
         if (a == nullptr || b == nullptr) {
-            reading.report_unknown(element.where(), "unknown-body",
-                                   "an <exclude> names a body that the file does not have",
+            reading.report_unknown(element.where(), {source.text("body1"), source.text("body2")},
+                                   "unknown-body", "an <exclude> names a body that the file does not have",
                                    "Check body1 and body2.");
             continue;
         }
@@ -74,10 +72,21 @@ void read_contact_excludes(Robots& robots, const Reading& reading) {
             robots.model_of(first).no_contact.emplace_back(robots.local_name(first),
                                                            robots.local_name(second));
         else
-            reading.diagnostics.warning(element.where(), "ignored-element",
-                                        "<exclude> has no effect between two robots, or a robot and scenery",
-                                        "Use contype and conaffinity.");
+            reading.warn(element.where(), "ignored-element",
+                         "<exclude> has no effect between two robots, or a robot and scenery",
+                         "Use contype and conaffinity.");
     }
+}
+
+}  // namespace
+
+void read_contact_pairs(Tree& tree, std::span<const Reading> parts) {
+    std::vector<unsigned> bits = free_bits(tree);
+    for (const Reading& part : parts) read_pairs(tree, part, bits);
+}
+
+void read_contact_excludes(Robots& robots, std::span<const Reading> parts) {
+    for (const Reading& part : parts) read_excludes(robots, part);
 }
 
 }  // namespace roboss::mjcf

@@ -37,10 +37,9 @@ class EqualityReader {
         if (!found) return std::nullopt;
         if (can_tie(*found)) return found;
         if (tells)
-            r_.diagnostics.warning(
-                element.where(), "between-robots",
-                "<" + kind + "> between two robots, or between a free body and the world, has no effect",
-                "Make them one tree of bodies, or hold them together by orders (attach).");
+            r_.warn(element.where(), "between-robots",
+                    "<" + kind + "> between two robots, or between a free body and the world, has no effect",
+                    "Make them one tree of bodies, or hold them together by orders (attach).");
         return std::nullopt;
     }
 
@@ -68,12 +67,12 @@ class EqualityReader {
     }
 
     std::optional<Ends> by_sites(const Attributes& source, bool tells) const {
-        const auto first = tree_.find_site(source.text("site1")),
-                   second = tree_.find_site(source.text("site2"));
+        const auto first = tree_.find_site(r_.names.full(source.text("site1"))),
+                   second = tree_.find_site(r_.names.full(source.text("site2")));
         if (!first || !second) {
             if (tells)
-                r_.report_unknown(source.where(), "unknown-site",
-                                  "an equality names a site that the file does not have",
+                r_.report_unknown(source.where(), {source.text("site1"), source.text("site2")},
+                                  "unknown-site", "an equality names a site that the file does not have",
                                   "Check site1 and site2.");
             return std::nullopt;
         }
@@ -82,10 +81,10 @@ class EqualityReader {
     }
 
     const BodyPart* body(const Attributes& source, const char* attribute, bool tells) const {
-        const BodyPart* found = tree_.find_body(source.text(attribute));
+        const BodyPart* found = tree_.find_body(r_.names.full(source.text(attribute)));
         if (found == nullptr && tells)
             r_.report_unknown(
-                source.where(), "unknown-body",
+                source.where(), {source.text(attribute)}, "unknown-body",
                 "an equality names the body '" + source.text(attribute) + "', which the file does not have",
                 "Check the name.");
         return found;
@@ -109,16 +108,15 @@ class EqualityReader {
 
 void add_follower(const Attributes& source, Robots& robots, const Reading& reading) {
     const auto wrong = [&](const std::string& what, const std::string& remedy) {
-        reading.diagnostics.warning(source.where(), "ignored-element", "an equality between joints " + what,
-                                    remedy);
+        reading.warn(source.where(), "ignored-element", "an equality between joints " + what, remedy);
     };
-    const auto first = robots.tree().find_joint(source.text("joint1"));
-    const auto second = robots.tree().find_joint(source.text("joint2"));
+    const auto first = robots.tree().find_joint(reading.names.full(source.text("joint1")));
+    const auto second = robots.tree().find_joint(reading.names.full(source.text("joint2")));
     if (!source.has("joint2"))
         return wrong("that holds one joint still has no effect", "Leave the joint out: that welds the body.");
     if (!first || !second) {
-        reading.report_unknown(source.where(), "unknown-joint",
-                               "an equality names a joint that the file does not have",
+        reading.report_unknown(source.where(), {source.text("joint1"), source.text("joint2")},
+                               "unknown-joint", "an equality names a joint that the file does not have",
                                "Check joint1 and joint2.");
         return;
     }
@@ -168,29 +166,41 @@ void add_joint(const Element& element, const Ends& ends, Robots& robots) {
     model.joints.push_back(std::move(joint));
 }
 
-}  // namespace
-
-std::vector<std::pair<std::size_t, std::size_t>> tied_bodies(const Tree& tree, const Reading& reading) {
-    const EqualityReader reader(tree, reading);
-    const std::vector<std::size_t> roots = Robots::roots_in(tree);
-    const std::vector<Fate> fates = Robots::fates_in(tree, roots);
-    std::vector<std::pair<std::size_t, std::size_t>> tied;
-    for (const Element& element : reading.document.in_sections("equality")) {
-        const auto ends = reader.ends_of(element, false);
-        if (ends && fates[roots[ends->first]] == Fate::kFixed && fates[roots[ends->second]] == Fate::kFixed)
-            tied.emplace_back(ends->first, ends->second);
-    }
-    return tied;
-}
-
-void read_equalities(Robots& robots, const Reading& reading) {
+void read_part(Robots& robots, const Reading& reading) {
+    const std::vector<Element> equalities = reading.document.in_sections("equality");
+    if (equalities.empty()) return;
     const EqualityReader reader(robots.tree(), reading);
-    for (const Element& element : reading.document.in_sections("equality")) {
+    for (const Element& element : equalities) {
         const Attributes source = reading.defaults.of(element);
         const bool active = reading.settings.equalities && source.boolean("active", true);
         if (std::string(element.node.name()) == "joint" && active) add_follower(source, robots, reading);
         if (const auto ends = reader.ends_of(element, true)) add_joint(element, *ends, robots);
     }
+}
+
+}  // namespace
+
+std::vector<std::pair<std::size_t, std::size_t>> tied_bodies(const Tree& tree,
+                                                             std::span<const Reading> parts) {
+    const std::vector<std::size_t> roots = Robots::roots_in(tree);
+    const std::vector<Fate> fates = Robots::fates_in(tree, roots);
+    std::vector<std::pair<std::size_t, std::size_t>> tied;
+    for (const Reading& part : parts) {
+        const std::vector<Element> equalities = part.document.in_sections("equality");
+        if (equalities.empty()) continue;
+        const EqualityReader reader(tree, part);
+        for (const Element& element : equalities) {
+            const auto ends = reader.ends_of(element, false);
+            if (ends && fates[roots[ends->first]] == Fate::kFixed &&
+                fates[roots[ends->second]] == Fate::kFixed)
+                tied.emplace_back(ends->first, ends->second);
+        }
+    }
+    return tied;
+}
+
+void read_equalities(Robots& robots, std::span<const Reading> parts) {
+    for (const Reading& part : parts) read_part(robots, part);
 }
 
 }  // namespace roboss::mjcf

@@ -1,6 +1,7 @@
 // Equalities and contact rules between bodies.
 #pragma once
 
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -9,14 +10,15 @@
 namespace roboss::mjcf {
 
 /// Pairs of bodies of different fixed robots that an equality ties: they become one robot.
-std::vector<std::pair<std::size_t, std::size_t>> tied_bodies(const Tree& tree, const Reading& reading);
+std::vector<std::pair<std::size_t, std::size_t>> tied_bodies(const Tree& tree,
+                                                             std::span<const Reading> parts);
 
 /// <connect>: a ball joint, <weld>: a fixed joint, <joint>: a joint that follows another one.
-void read_equalities(Robots& robots, const Reading& reading);
+void read_equalities(Robots& robots, std::span<const Reading> parts);
 
 /// Geoms of <pair>s get a bit of the masks for each pair. Before the robots are made.
-void read_contact_pairs(Tree& tree, const Reading& reading);
+void read_contact_pairs(Tree& tree, std::span<const Reading> parts);
 /// <exclude>: links that do not touch each other.
-void read_contact_excludes(Robots& robots, const Reading& reading);
+void read_contact_excludes(Robots& robots, std::span<const Reading> parts);
 
 }  // namespace roboss::mjcf

@@ -169,7 +169,7 @@ void check_size(const Attributes& geom, GeometryKind kind, const Size& size) {
 
 GeomPart read_geom(const Attributes& geom, const Scope& scope, const Reading& reading) {
     GeomPart part;
-    part.name = geom.name().empty() ? "" : geom.name() + scope.suffix;
+    part.name = scope.names.full(geom.name());
     part.where = geom.where();
     part.group = geom.integer("group", 0);
     part.contype = static_cast<unsigned>(geom.integer("contype", 1));

@@ -22,10 +22,14 @@ Mass read_inertial(const Attributes& inertial, const Scope& scope, const Reading
         mass.inertia = R * I * transpose(R);
         return mass;
     }
-    if (!inertial.has("diaginertia") && mass.mass > 0)
-        reading.diagnostics.error(inertial.where(), "missing-inertia",
-                                  "<inertial> has neither diaginertia nor fullinertia",
-                                  "Write the moments of inertia about the centre of mass.");
+    if (!inertial.has("diaginertia") && mass.mass > 0) {
+        // As in MuJoCo, a body that stands still on another one may be a point.
+        const auto body = inertial.element().node.parent();
+        const bool moves = body.child("joint") || body.child("freejoint");
+        reading.diagnostics.add({moves ? Severity::kError : Severity::kWarning, inertial.where(),
+                                 "missing-inertia", "<inertial> has neither diaginertia nor fullinertia",
+                                 "Write the moments of inertia about the centre of mass."});
+    }
     moments = inertial.vector("diaginertia", {});
     mass.inertia = from_principal(moments, X.q);
     return mass;

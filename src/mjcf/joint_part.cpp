@@ -80,7 +80,7 @@ void report_without_axis(const Attributes& joint, const Settings& settings, bool
 JointPart read_joint(const Attributes& joint, const Scope& scope, const Reading& reading) {
     const Settings& settings = reading.settings;
     JointPart part;
-    part.name = joint.name().empty() ? "" : joint.name() + scope.suffix;
+    part.name = scope.names.full(joint.name());
     part.where = joint.where();
     part.motion = motion_of(joint);
     if (std::string(joint.element().node.name()) == "freejoint") return part;

@@ -6,7 +6,7 @@ namespace roboss::mjcf {
 
 LightSpec read_light(const Attributes& light, const Scope& scope) {
     LightSpec spec;
-    spec.name = light.name() + scope.suffix;
+    spec.name = scope.names.full(light.name());
     spec.X_FL = scope.X_BF * Pose{light.vector("pos", {}), {}};
     const std::string type = light.text("type", light.boolean("directional", false) ? "directional" : "spot");
     spec.kind = type == "directional" ? LightKind::kDirectional

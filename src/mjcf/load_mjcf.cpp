@@ -8,6 +8,7 @@
 #include "mjcf/equalities.h"
 #include "mjcf/robots.h"
 #include "mjcf/sensors.h"
+#include "mjcf/sub_models.h"
 #include "mjcf/unread.h"
 
 namespace roboss {
@@ -19,8 +20,7 @@ using namespace mjcf;
 bool makes_bodies(const Document& document, const Element& parent) {
     return std::ranges::any_of(document.children(parent), [&](const Element& element) {
         const std::string name = element.node.name();
-        return name == "attach" || name == "composite" || name == "flexcomp" ||
-               makes_bodies(document, element);
+        return name == "composite" || name == "flexcomp" || makes_bodies(document, element);
     });
 }
 
@@ -46,14 +46,17 @@ std::optional<World> load_mjcf(std::unique_ptr<xml::SourceFile> file, const Mjcf
     const Defaults defaults(document, diagnostics);
     Assets assets(document, defaults, settings, options.search_paths, diagnostics);
     const Severity unknown = makes_bodies(document, document.root()) ? Severity::kWarning : Severity::kError;
-    const Reading reading{document, defaults, settings, assets, options.looks, diagnostics, unknown};
-    Tree tree = read_tree(reading);
-    read_contact_pairs(tree, reading);
-    Robots robots(tree, tied_bodies(tree, reading), reading);
-    read_contact_excludes(robots, reading);
-    read_equalities(robots, reading);
-    read_actuators(robots, reading);
-    read_sensors(robots, reading);
+    SubModels sub_models(settings, options.search_paths, diagnostics);
+    const Reading reading{document,    defaults, settings, assets, sub_models, options.looks,
+                          diagnostics, unknown,  {},       false,  false,      {}};
+    std::vector<Reading> parts;
+    Tree tree = read_tree(reading, parts);
+    read_contact_pairs(tree, parts);
+    Robots robots(tree, tied_bodies(tree, parts), reading);
+    read_contact_excludes(robots, parts);
+    read_equalities(robots, parts);
+    read_actuators(robots, parts);
+    read_sensors(robots, parts);
     World world = empty_world(document, settings);
     robots.move_to(world);
     if (diagnostics.refuses()) return std::nullopt;

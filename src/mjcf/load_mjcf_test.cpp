@@ -328,6 +328,13 @@ INSTANTIATE_TEST_SUITE_P(
                 "global-coordinates"}),
     [](const auto& row) { return std::string(row.param.claim); });
 
+TEST(LoadMjcf, AMassWithoutMomentsMayStandOnAnotherBody) {
+    const Loaded loaded = load_bodies(
+        "<body><freejoint/><geom size='.1'/><body><inertial pos='0 0 0' mass='2'/></body></body>");
+    ASSERT_TRUE(loaded.world) << loaded.text();
+    EXPECT_EQ(loaded.find("missing-inertia")->severity, Severity::kWarning);
+}
+
 TEST(LoadMjcf, WhatHasNoEffectIsTold) {
     const Loaded loaded = load_bodies(
         "<body name='b'><joint name='j' springdamper='1 1' stifness='2'/><geom size='.1' solref='.1 1'/>"

@@ -31,7 +31,8 @@ bool is_free(const BodyPart& body) {
 }
 
 /// What the geoms of a body give, or its <inertial>.
-Mass mass_of(const BodyPart& body, const Settings& settings) {
+Mass mass_of(const BodyPart& body) {
+    const Settings& settings = *body.settings;
     const bool from_geoms = settings.inertia_from_geom == InertiaFromGeom::kAlways ||
                             (settings.inertia_from_geom == InertiaFromGeom::kAuto && !body.inertial);
     std::optional<Mass> mass;
@@ -103,7 +104,6 @@ std::vector<Fate> Robots::fates_in(const Tree& tree, const std::vector<std::size
 Robots::Robots(Tree& tree, const std::vector<std::pair<std::size_t, std::size_t>>& tied,
                const Reading& reading)
     : tree_(tree),
-      reading_(reading),
       roots_(roots_in(tree)),
       fates_(fates_in(tree, roots_)),
       X_MB_(tree.bodies.size()),
@@ -111,8 +111,7 @@ Robots::Robots(Tree& tree, const std::vector<std::pair<std::size_t, std::size_t>
       link_index_(tree.bodies.size(), 0),
       joint_index_(tree.bodies.size()) {
     double total = 0;
-    for (std::size_t b = 1; b < tree.bodies.size(); ++b)
-        total += mass_of(tree.bodies[b], reading.settings).mass;
+    for (std::size_t b = 1; b < tree.bodies.size(); ++b) total += mass_of(tree.bodies[b]).mass;
     if (reading.settings.total_mass > 0 && total > 0) mass_factor_ = reading.settings.total_mass / total;
     // Tied trees are one model: that of the first root of them.
     std::vector<std::size_t> leader(tree.bodies.size());
@@ -127,7 +126,7 @@ Robots::Robots(Tree& tree, const std::vector<std::pair<std::size_t, std::size_t>
     }
     for (const BodyPart& body : tree.bodies) copy_.push_back(body.copy);
     for (std::size_t b = 0; b < tree.bodies.size(); ++b)
-        if (const std::size_t first = first_of(b); first != b) copy_[b] = copy_[first] = "";
+        if (const std::size_t first = first_of(b); first != b) copy_[b] = copy_[first] = {};
     for (std::size_t b = 0; b < tree.bodies.size(); ++b) {
         const std::size_t root = roots_[b], first = first_of(root);
         model_of_[b] = b == root && first == b ? start_model(b) : model_of_[first];
@@ -143,12 +142,14 @@ std::string Robots::local_name(std::size_t body) const {
 
 std::string Robots::local_name(std::size_t body, const std::string& part) const {
     const BodyPart& owner = tree_.bodies[body];
-    const std::string& copy = copy_[roots_[body]];
+    const Names& copy = copy_[roots_[body]];
     if (copy.empty()) return part;
     if (!owner.has_name && part.starts_with(owner.name) && part != owner.name)
         return local_name(body) + part.substr(owner.name.size());
-    return part.ends_with(copy) && part.size() > copy.size() ? part.substr(0, part.size() - copy.size())
-                                                             : part;
+    if (part.size() <= copy.prefix.size() + copy.suffix.size() || !part.starts_with(copy.prefix) ||
+        !part.ends_with(copy.suffix))
+        return part;
+    return part.substr(copy.prefix.size(), part.size() - copy.prefix.size() - copy.suffix.size());
 }
 
 std::size_t Robots::start_model(std::size_t body) {
@@ -233,7 +234,7 @@ void Robots::add_link(std::size_t index, const Pose& X) {
     link.X_ML = X;
     link.where = body.where;
     link.gravity = body.gravity;
-    const Mass mass = mass_of(body, reading_.settings);
+    const Mass mass = mass_of(body);
     link.mass = mass.mass * mass_factor_;
     link.p_LC = mass.centre;
     link.inertia_C = mass.inertia * mass_factor_;

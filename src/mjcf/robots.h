@@ -38,7 +38,7 @@ class Robots {
     /// The joint of the model that a joint of the file became; nullptr: a free joint.
     JointSpec* joint_of(const Tree::JointPlace& place);
     /// Name of a body in its model, and of a part of a body (joint, site). Those of copies of a robot
-    /// (<replicate>) are alike: the robots' own names differ, and all are of one type.
+    /// (<replicate>, <attach>) are alike: the robots' own names differ, and all are of one type.
     std::string local_name(std::size_t body) const;
     std::string local_name(std::size_t body, const std::string& part) const;
     /// Pose of a body in its model, all joints at zero.
@@ -60,10 +60,9 @@ class Robots {
     void add_link(std::size_t body, const Pose& X);
 
     Tree& tree_;
-    const Reading& reading_;
     std::vector<std::size_t> roots_;
-    std::vector<Fate> fates_;        // by root
-    std::vector<std::string> copy_;  // by root: what its names lose; empty where trees are tied to each other
+    std::vector<Fate> fates_;  // by root
+    std::vector<Names> copy_;  // by root: what its names lose; empty where trees are tied to each other
     double mass_factor_ = 1;
     std::vector<Pose> X_MB_;
     std::vector<std::size_t> model_of_, link_index_;

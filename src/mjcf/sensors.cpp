@@ -9,7 +9,15 @@ namespace {
 
 class SensorReader {
   public:
-    SensorReader(Robots& robots, const Reading& reading) : robots_(robots), r_(reading) {}
+    /// What the joint sensors of a robot in all files read.
+    struct JointReader {
+        ModelSpec* model = nullptr;
+        std::vector<std::string> joints;
+        SourceLocation where;
+    };
+
+    SensorReader(Robots& robots, const Reading& reading, std::vector<JointReader>& joint_readers)
+        : robots_(robots), r_(reading), joint_readers_(joint_readers) {}
 
     void read() {
         for (const Element& element : r_.document.in_sections("sensor")) {
@@ -30,25 +38,30 @@ class SensorReader {
                 no_effect(element, "a sensor <" + kind + "> measures nothing",
                           "Read it in the control program: poses, velocities and contacts are there.");
         }
-        for (const JointReader& reader : joint_readers_) add_joint_states(reader);
+    }
+
+    static void add_joint_states(const JointReader& reader) {
+        SensorSpec sensor;
+        sensor.name = "joint_states";
+        JointStatesSpec spec;
+        spec.joints = reader.joints;
+        sensor.parameters = spec;
+        sensor.where = reader.where;
+        const auto first = std::ranges::find_if(reader.model->links,
+                                                [](const LinkSpec& link) { return !link.between_joints; });
+        if (first != reader.model->links.end()) first->sensors.push_back(std::move(sensor));
     }
 
   private:
-    struct JointReader {
-        ModelSpec* model = nullptr;
-        std::vector<std::string> joints;
-        SourceLocation where;
-    };
-
     void no_effect(const Element& element, const std::string& what, const std::string& remedy) const {
-        r_.diagnostics.warning(element.where(), "unsupported-sensor", what, remedy);
+        r_.warn(element.where(), "unsupported-sensor", what, remedy);
     }
 
     std::optional<Tree::SitePlace> site_of(const Attributes& source) const {
-        const auto place = robots_.tree().find_site(source.text("site"));
+        const auto place = robots_.tree().find_site(r_.names.full(source.text("site")));
         if (!place)
             r_.report_unknown(
-                source.where(), "unknown-site",
+                source.where(), {source.text("site")}, "unknown-site",
                 "a sensor names the site '" + source.text("site") + "', which the file does not have",
                 "Check the name.");
         return place;
@@ -105,11 +118,11 @@ class SensorReader {
     }
 
     void read_joint(const Attributes& source) {
-        const auto place = robots_.tree().find_joint(source.text("joint"));
+        const auto place = robots_.tree().find_joint(r_.names.full(source.text("joint")));
         JointSpec* joint = place ? robots_.joint_of(*place) : nullptr;
         if (!place) {
             r_.report_unknown(
-                source.where(), "unknown-joint",
+                source.where(), {source.text("joint")}, "unknown-joint",
                 "a sensor names the joint '" + source.text("joint") + "', which the file does not have",
                 "Check the name.");
             return;
@@ -125,27 +138,17 @@ class SensorReader {
             reader->joints.push_back(joint->name);
     }
 
-    static void add_joint_states(const JointReader& reader) {
-        SensorSpec sensor;
-        sensor.name = "joint_states";
-        JointStatesSpec spec;
-        spec.joints = reader.joints;
-        sensor.parameters = spec;
-        sensor.where = reader.where;
-        const auto first = std::ranges::find_if(reader.model->links,
-                                                [](const LinkSpec& link) { return !link.between_joints; });
-        if (first != reader.model->links.end()) first->sensors.push_back(std::move(sensor));
-    }
-
     Robots& robots_;
     const Reading& r_;
-    std::vector<JointReader> joint_readers_;
+    std::vector<JointReader>& joint_readers_;
 };
 
 }  // namespace
 
-void read_sensors(Robots& robots, const Reading& reading) {
-    SensorReader(robots, reading).read();
+void read_sensors(Robots& robots, std::span<const Reading> parts) {
+    std::vector<SensorReader::JointReader> joint_readers;
+    for (const Reading& part : parts) SensorReader(robots, part, joint_readers).read();
+    for (const auto& reader : joint_readers) SensorReader::add_joint_states(reader);
 }
 
 }  // namespace roboss::mjcf

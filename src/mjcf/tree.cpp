@@ -1,41 +1,82 @@
-// Walks <worldbody>. Elements in a <frame> belong to the body around it; a <replicate> is a row of frames.
+// Walks <worldbody>. Elements in a <frame> belong to the body around it; a <replicate> is a row of frames; an
+// <attach> goes on in another file, or elsewhere in this one, with another Reading.
 #include "mjcf/tree.h"
 
 #include <algorithm>
 #include <set>
 
 #include "mjcf/orientation.h"
+#include "mjcf/sub_models.h"
 
 namespace roboss::mjcf {
 namespace {
 
+constexpr int kAttachDepth = 32;  // <attach>es in each other
+
+/// Whether the file has elements that refer to parts of its bodies.
+bool has_references(const Document& document) {
+    return std::ranges::any_of(document.children(document.root()), [](const Element& section) {
+        const std::string name = section.node.name();
+        return name == "actuator" || name == "sensor" || name == "equality" || name == "contact";
+    });
+}
+
+/// An element of <worldbody>, and the class that the elements around it name.
+struct Place {
+    Element element;
+    std::string childclass;
+};
+
+/// nullopt: none of this name.
+std::optional<Place> find_place(const Document& document, const Element& parent, const char* kind,
+                                const std::string& name, const std::string& childclass) {
+    for (const Element& element : document.children(parent)) {
+        const std::string own = element.node.name();
+        if (own == kind && element.name() == name) return Place{element, childclass};
+        if (own != "body" && own != "frame" && own != "replicate") continue;
+        const std::string inner = element.node.attribute("childclass").as_string(childclass.c_str());
+        if (auto found = find_place(document, element, kind, name, inner)) return found;
+    }
+    return std::nullopt;
+}
+
 class TreeReader {
   public:
-    explicit TreeReader(const Reading& reading) : r_(reading) {}
+    TreeReader(const Reading& reading, Tree& tree, std::vector<Reading>& parts, int depth = 0)
+        : r_(reading), tree_(tree), parts_(parts), depth_(depth) {}
 
-    Tree read() {
+    void read() {
         BodyPart world;
         world.name = "world";
+        world.settings = &r_.settings;
         world.where = r_.document.root().where();
         tree_.bodies.push_back(std::move(world));
-        for (const Element& section : r_.document.children(r_.document.root(), "worldbody"))
-            read_contents(section, 0, {});
+        read_world(0, {});
         name_parts();
-        return std::move(tree_);
+        tree_.index();
     }
 
   private:
+    void read_world(std::size_t body, const Scope& scope) {
+        for (const Element& section : worlds()) read_contents(section, body, scope);
+    }
+
+    std::vector<Element> worlds() const { return r_.document.children(r_.document.root(), "worldbody"); }
+
     /// MuJoCo numbers bodies depth first, and reads a body's own parts before its children. The order of the
     /// file does that here.
     void read_contents(const Element& parent, std::size_t body, const Scope& scope) {
         for (const Element& element : r_.document.children(parent)) {
             const std::string kind = element.node.name();
+            if (!scope.names.suffix.empty()) tree_.copied_names.insert(element.name());
             if (kind == "body")
                 read_body(element, body, scope);
             else if (kind == "frame")
                 read_contents(element, body, inner(element, scope));
             else if (kind == "replicate")
                 replicate(element, body, scope);
+            else if (kind == "attach")
+                attach(element, body, scope);
             else
                 read_part(element, kind, body, scope);
         }
@@ -47,10 +88,10 @@ class TreeReader {
         if (kind == "light") at(body).lights.push_back(read_light(attributes(), scope));
         if (kind == "site")
             at(body).sites.push_back(
-                {element.name() + scope.suffix, scope.X_BF * read_pose(attributes(), r_.settings)});
+                {scope.names.full(element.name()), scope.X_BF * read_pose(attributes(), r_.settings)});
         if (kind == "inertial") at(body).inertial = read_inertial({{element}, r_.diagnostics}, scope, r_);
         if (kind == "joint" || kind == "freejoint") add_joint(attributes(), body, scope);
-        if (kind == "attach" || kind == "composite" || kind == "flexcomp")
+        if (kind == "composite" || kind == "flexcomp")
             r_.diagnostics.warning(
                 element.where(), "ignored-element", "<" + kind + "> is not read: what it makes is missing",
                 "Load the file in MuJoCo and save it, which writes out what <" + kind + "> makes.");
@@ -82,9 +123,10 @@ class TreeReader {
     void read_body(const Element& element, std::size_t parent, const Scope& scope) {
         const Attributes attributes({element}, r_.diagnostics);
         BodyPart body;
-        body.name = element.name().empty() ? "" : element.name() + scope.suffix;
+        body.name = scope.names.full(element.name());
         body.has_name = !body.name.empty();
-        body.copy = scope.suffix;
+        body.copy = scope.names;
+        body.settings = &r_.settings;
         body.parent = parent;
         body.X_PB = scope.X_BF * read_pose(attributes, r_.settings);
         body.mocap = attributes.boolean("mocap", false);
@@ -104,12 +146,12 @@ class TreeReader {
                             (r_.settings.inertia_from_geom == InertiaFromGeom::kAuto &&
                              r_.document.children(element, "inertial").empty());
         read_contents(element, index,
-                      {attributes.text("childclass", scope.childclass), scope.suffix, {}, masses});
+                      {attributes.text("childclass", scope.childclass), scope.names, {}, masses});
     }
 
     Scope inner(const Element& frame, const Scope& scope) const {
         const Attributes attributes({frame}, r_.diagnostics);
-        return {attributes.text("childclass", scope.childclass), scope.suffix,
+        return {attributes.text("childclass", scope.childclass), scope.names,
                 scope.X_BF * read_pose(attributes, r_.settings), scope.masses};
     }
 
@@ -127,12 +169,64 @@ class TreeReader {
             const Quat q = from_euler(euler * static_cast<double>(i), r_.settings.euler_sequence);
             const std::string number = std::to_string(i);
             Scope copy{attributes.text("childclass", scope.childclass),
-                       attributes.text("sep") + std::string(digits - std::min(digits, number.size()), '0') +
-                           number + scope.suffix,
-                       scope.X_BF * Pose{pos, q}, scope.masses};
+                       {scope.names.prefix, attributes.text("sep") +
+                                                std::string(digits - std::min(digits, number.size()), '0') +
+                                                number + scope.names.suffix},
+                       scope.X_BF * Pose{pos, q},
+                       scope.masses};
+            add_part(r_, copy.names);
             read_contents(element, body, copy);
             pos += rotate(q, offset);
         }
+    }
+
+    /// The parts of this file that have these names are there now.
+    Reading add_part(const Reading& reading, const Names& names) {
+        Reading part = reading;
+        part.names = names;
+        part.is_copy = true;
+        part.quiet = std::ranges::any_of(
+            parts_, [&](const Reading& other) { return &other.document == &part.document; });
+        if (has_references(part.document)) parts_.push_back(part);
+        return part;
+    }
+
+    /// The bodies of another file with a prefix before their names, or once more some of this file.
+    void attach(const Element& element, std::size_t body, const Scope& scope) {
+        const Attributes source({element}, r_.diagnostics);
+        if (depth_ == kAttachDepth)
+            return r_.diagnostics.error(element.where(), "attach-in-itself",
+                                        "<attach> attaches what it stands in", "Attach another body.");
+        const SubModel* model = nullptr;
+        if (source.has("model")) {
+            model = r_.sub_models.find(source, r_.document);
+            if (model == nullptr) return;
+        } else if (!source.has("body") && !source.has("frame")) {
+            return source.bad_value("model", "the name of a <model> in <asset>");
+        }
+        const Names names{scope.names.prefix + source.text("prefix"), scope.names.suffix};
+        const Reading part = add_part(model != nullptr ? model->reading(r_) : r_, names);
+        TreeReader(part, tree_, parts_, depth_ + 1)
+            .attached(source, body, {"", names, scope.X_BF, scope.masses});
+    }
+
+    /// What the <attach> names, in this file. A body comes without the frames around it, as in MuJoCo.
+    void attached(const Attributes& source, std::size_t body, Scope scope) {
+        const char* kind = source.has("body") ? "body" : "frame";
+        if (!source.has(kind)) return read_world(body, scope);
+        std::optional<Place> place;
+        for (const Element& section : worlds())
+            if (!place) place = find_place(r_.document, section, kind, source.text(kind), "");
+        if (!place)
+            return r_.diagnostics.error(source.where(), "unknown-" + std::string(kind),
+                                        "<attach> names the " + std::string(kind) + " '" + source.text(kind) +
+                                            "', which '" + r_.document.path() + "' does not have",
+                                        "Check the name.");
+        scope.childclass = place->childclass;
+        if (source.has("body"))
+            read_body(place->element, body, scope);
+        else
+            read_contents(place->element, body, inner(place->element, scope));
     }
 
     /// Parts without names get those of their body; names that are there twice are errors.
@@ -173,39 +267,52 @@ class TreeReader {
     BodyPart& at(std::size_t body) { return tree_.bodies[body]; }
 
     const Reading& r_;
-    Tree tree_;
+    Tree& tree_;
+    std::vector<Reading>& parts_;
+    int depth_;
 };
 
 }  // namespace
 
+void Tree::index() {
+    for (std::size_t b = 0; b < bodies.size(); ++b) {
+        const BodyPart& body = bodies[b];
+        body_index_.emplace(body.name, b);
+        for (std::size_t j = 0; j < body.joints.size(); ++j)
+            joint_index_.emplace(body.joints[j].name, JointPlace{b, j});
+        for (std::size_t s = 0; s < body.sites.size(); ++s)
+            site_index_.emplace(body.sites[s].name, SitePlace{b, s});
+        for (std::size_t g = 0; g < body.geoms.size(); ++g)
+            geom_index_.emplace(body.geoms[g].name, std::pair{b, g});
+    }
+}
+
 const BodyPart* Tree::find_body(const std::string& name) const {
-    const auto found = std::ranges::find(bodies, name, &BodyPart::name);
-    return found == bodies.end() ? nullptr : &*found;
+    const auto found = body_index_.find(name);
+    return found == body_index_.end() ? nullptr : &bodies[found->second];
 }
 
 std::optional<Tree::JointPlace> Tree::find_joint(const std::string& name) const {
-    for (std::size_t b = 0; b < bodies.size(); ++b)
-        for (std::size_t j = 0; j < bodies[b].joints.size(); ++j)
-            if (bodies[b].joints[j].name == name) return JointPlace{b, j};
-    return std::nullopt;
+    const auto found = joint_index_.find(name);
+    return found == joint_index_.end() ? std::nullopt : std::optional(found->second);
 }
 
 GeomPart* Tree::find_geom(const std::string& name) {
-    for (BodyPart& body : bodies)
-        for (GeomPart& geom : body.geoms)
-            if (geom.name == name) return &geom;
-    return nullptr;
+    const auto found = geom_index_.find(name);
+    return found == geom_index_.end() ? nullptr : &bodies[found->second.first].geoms[found->second.second];
 }
 
 std::optional<Tree::SitePlace> Tree::find_site(const std::string& name) const {
-    for (std::size_t b = 0; b < bodies.size(); ++b)
-        for (std::size_t s = 0; s < bodies[b].sites.size(); ++s)
-            if (bodies[b].sites[s].name == name) return SitePlace{b, s};
-    return std::nullopt;
+    const auto found = site_index_.find(name);
+    return found == site_index_.end() ? std::nullopt : std::optional(found->second);
 }
 
-Tree read_tree(const Reading& reading) {
-    return TreeReader(reading).read();
+Tree read_tree(const Reading& reading, std::vector<Reading>& parts) {
+    Tree tree;
+    parts.push_back(reading);
+    TreeReader(reading, tree, parts).read();
+    parts.front().copied = tree.copied_names;
+    return tree;
 }
 
 }  // namespace roboss::mjcf

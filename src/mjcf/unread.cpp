@@ -54,6 +54,8 @@ constexpr Row kRows[] = {
      ""},
     {"", "frame", "name childclass pos quat axisangle xyaxes zaxis euler", "", ""},
     {"", "replicate", "childclass count offset euler sep", "", ""},
+    {"", "attach", "model body frame prefix", "", ""},
+    {"asset", "model", "name file content_type", "", ""},
     {"", "worldbody", "name childclass", "", ""},
     {"", "inertial", "pos quat axisangle xyaxes zaxis euler mass diaginertia fullinertia", "", ""},
     {"equality", "joint", "name class active joint1 joint2 polycoef", "solref solimp", ""},
@@ -132,15 +134,14 @@ constexpr LeftOut kLeftOut[] = {
      "tendons, their springs and their limits are not simulated, but an actuator may drive a joint by a "
      "fixed one"},
     {"lengthrange", kNote, "it is for muscles"},
-    {"model", kNote, "models are not attached"},
     {"muscle", kWarning, "muscles are not simulated"},
     {"flex", kWarning, "bodies are rigid"},
 };
 
 /// Elements that other parts of the importer tell about, or that stand in sections which they read by name.
-constexpr std::string_view kElsewhere[] = {"asset",    "contact",     "actuator", "sensor",  "include",
-                                           "attach",   "composite",   "flexcomp", "layer",   "adhesion",
-                                           "cylinder", "orientation", "pid",      "dcmotor", "tendon"};
+constexpr std::string_view kElsewhere[] = {"asset",       "contact",  "actuator", "sensor",   "include",
+                                           "composite",   "flexcomp", "layer",    "adhesion", "cylinder",
+                                           "orientation", "pid",      "dcmotor",  "tendon"};
 
 bool has_word(std::string_view list, std::string_view word) {
     const auto words = xml::words_of(list);

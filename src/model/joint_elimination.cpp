@@ -3,8 +3,8 @@
 
 #include <algorithm>
 #include <limits>
+#include <utility>
 
-#include "core/minimum_degree.h"
 #include "model/model.h"
 
 namespace roboss {
@@ -34,9 +34,9 @@ bool is_plain(const RobotType& type) {
 std::vector<JointElimination::Node> joints_of(const RobotType& type) {
     std::vector<JointElimination::Node> nodes;
     for (std::size_t b = 0; b < type.bodies.size(); ++b)
-        nodes.push_back({type.bodies[b].parent, static_cast<int>(b), -1, 0, 0});
+        nodes.push_back({type.bodies[b].parent, static_cast<int>(b), -1});
     for (std::size_t i = 0; i < type.loops.size(); ++i)
-        nodes.push_back({type.loops[i].body_a, type.loops[i].body_b, static_cast<int>(i), 0, 0});
+        nodes.push_back({type.loops[i].body_a, type.loops[i].body_b, static_cast<int>(i)});
     return nodes;
 }
 
@@ -50,42 +50,23 @@ std::vector<std::vector<int>> joints_by_body(const RobotType& type,
     return by_body;
 }
 
-/// Sorts the nodes by the order of elimination.
-void order(const RobotType& type, JointElimination& out) {
-    const std::vector<JointElimination::Node> nodes = joints_of(type);
-    MinimumDegree elimination;
-    elimination.begin(nodes.size());
-    for (const std::vector<int>& joints : joints_by_body(type, nodes))
-        for (std::size_t i = 0; i < joints.size(); ++i)
-            for (std::size_t j = i + 1; j < joints.size(); ++j)
-                if (joints[i] != joints[j]) elimination.join(joints[i], joints[j]);
-    elimination.eliminate();
-    for (std::size_t k = 0; k < nodes.size(); ++k) {
-        const auto [first, last] = elimination.ends_of(k);
-        JointElimination::Node node = nodes[static_cast<std::size_t>(elimination.order()[k])];
-        node.first = first, node.last = last;
-        out.nodes.push_back(node);
-    }
-    for (const int end : elimination.ends())
-        out.ends.push_back(elimination.position()[static_cast<std::size_t>(end)]);
-    for (const JointElimination::Node& node : out.nodes)
-        std::sort(out.ends.begin() + static_cast<std::ptrdiff_t>(node.first),
-                  out.ends.begin() + static_cast<std::ptrdiff_t>(node.last));
-}
-
 void couple(const RobotType& type, JointElimination& out) {
     const std::vector<std::vector<int>> by_body = joints_by_body(type, out.nodes);
+    std::vector<std::pair<int, int>> links;
+    for (const std::vector<int>& joints : by_body)
+        for (std::size_t i = 0; i < joints.size(); ++i)
+            for (std::size_t j = i + 1; j < joints.size(); ++j) links.emplace_back(joints[i], joints[j]);
+    out.pattern.analyse(out.nodes.size(), links);
+    const auto position = [&](int node) { return out.pattern.position(static_cast<std::size_t>(node)); };
     for (std::size_t b = 0; b < by_body.size(); ++b)
-        for (const int p : by_body[b]) {
-            const JointElimination::Node& node = out.nodes[static_cast<std::size_t>(p)];
-            const auto first = out.ends.begin() + static_cast<std::ptrdiff_t>(node.first);
-            const auto last = out.ends.begin() + static_cast<std::ptrdiff_t>(node.last);
-            for (const int q : by_body[b]) {
-                if (q < p) continue;
-                const auto edge = q == p ? -1 : std::lower_bound(first, last, q) - out.ends.begin();
-                out.couplings.push_back({static_cast<int>(b), p, q, static_cast<int>(edge)});
-            }
-        }
+        for (const int p : by_body[b])
+            for (const int q : by_body[b])
+                if (position(p) <= position(q)) out.couplings.push_back({static_cast<int>(b), p, q});
+    std::ranges::stable_sort(out.couplings, {}, [&](const auto& coupling) { return position(coupling.p); });
+    out.coupling_first.assign(out.nodes.size() + 1, 0);
+    for (const JointElimination::Coupling& coupling : out.couplings)
+        ++out.coupling_first[position(coupling.p) + 1];
+    for (std::size_t k = 0; k < out.nodes.size(); ++k) out.coupling_first[k + 1] += out.coupling_first[k];
 }
 
 }  // namespace
@@ -93,7 +74,7 @@ void couple(const RobotType& type, JointElimination& out) {
 JointElimination joint_elimination(const RobotType& type) {
     JointElimination out;
     if (type.loops.size() < kLoopsMin || !is_plain(type)) return out;
-    order(type, out);
+    out.nodes = joints_of(type);
     couple(type, out);
     return out;
 }

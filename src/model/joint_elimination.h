@@ -7,32 +7,40 @@
 #pragma once
 
 #include <cstddef>
+#include <span>
 #include <vector>
+
+#include "core/block_pattern.h"
 
 namespace roboss {
 
 struct RobotType;
 
 struct JointElimination {
-    /// A joint, by the order of elimination. Joints of the tree join body B to its parent A.
+    /// A joint. Joints of the tree join body B to its parent A; node b is the joint of body b, then come the
+    /// loops.
     struct Node {
         int body_a = -1, body_b = -1;  // in RobotType::bodies; -1: the fixed base
         int loop = -1;                 // in RobotType::loops; -1: of the tree
-        std::size_t first = 0,         // those that are coupled to it when it is eliminated:
-            last = 0;                  // [first, last) of `ends`
     };
     /// Two joints, or one and itself, at the same body; `p` is eliminated first.
     struct Coupling {
         int body = 0;
         int p = 0, q = 0;  // in `nodes`
-        int edge = -1;     // in `ends`, from p to q; -1: p is q
     };
 
     std::vector<Node> nodes;  // none: the robot is better off without
-    std::vector<int> ends;    // in `nodes`; ascending for each node
-    std::vector<Coupling> couplings;
+    BlockPattern pattern;     // of these
 
     bool empty() const { return nodes.empty(); }
+    /// Those of which the joint at a position of the pattern is the first.
+    std::span<const Coupling> couplings_at(std::size_t position) const {
+        return std::span(couplings).subspan(coupling_first[position],
+                                            coupling_first[position + 1] - coupling_first[position]);
+    }
+
+    std::vector<Coupling> couplings;          // by the position of p
+    std::vector<std::size_t> coupling_first;  // by position, and the end
 };
 
 /// Of a robot with many loops and nothing but rigid bodies and joints; of another type empty.

@@ -58,6 +58,8 @@ bool touches_one_thing(std::span<const Contact> contacts) {
 bool RobotGroup::forward_kinematics() {
     ROBOSS_CHECK(robots_.size() == chosen_.size(), std::to_string(chosen_.size()) + " robots");
     ROBOSS_CHECK(std::ranges::is_sorted(chosen_), "robots of a group");
+    weight_ = 0;
+    for (const std::uint32_t i : chosen_) weight_ += weight_of(call_.model.type_of(call_.robots[i]));
     std::atomic<bool> all_fine{true};
     team().run_blocks(chosen_.size(), kBlock, [&](std::size_t first, std::size_t last) {
         for (std::size_t k = first; k < last; ++k) {
@@ -109,7 +111,7 @@ void RobotGroup::build_contact_islands() {
 
 /// Reactions are kept in the order of the islands.
 Team RobotGroup::team() const {
-    return robots_.size() < kWorthATeam || s_.keep_reactions ? Team() : s_.team;
+    return weight_ < kTeamFrom || s_.keep_reactions ? Team() : s_.team;
 }
 
 /// Tells each thread's islands about the group.
@@ -131,12 +133,18 @@ void RobotGroup::start_islands() {
 /// work.
 std::size_t RobotGroup::count_large() {
     using Members = std::span<const std::uint32_t>;
-    std::ranges::sort(s_.waiting, [](const Members& a, const Members& b) {
-        return std::pair(b.size(), a.front()) < std::pair(a.size(), b.front());
+    const auto weight = [&](const Members& members) {
+        if (weight_ == robots_.size()) return members.size();
+        std::size_t sum = 0;
+        for (const std::uint32_t m : members) sum += weight_of(*robots_[m].type);
+        return sum;
+    };
+    std::ranges::sort(s_.waiting, [&](const Members& a, const Members& b) {
+        return std::pair(weight(b), a.front()) < std::pair(weight(a), b.front());
     });
     std::size_t all = 0, large = 0;
-    for (const Members& members : s_.waiting) all += members.size();
-    while (large < s_.waiting.size() && s_.waiting[large].size() * 2 * team().size() > all) ++large;
+    for (const Members& members : s_.waiting) all += weight(members);
+    while (large < s_.waiting.size() && weight(s_.waiting[large]) * 2 * team().size() > all) ++large;
     return large;
 }
 

@@ -22,7 +22,6 @@ struct StepCall {
 class RobotGroup {
   public:
     /// Smaller groups are not worth waking other threads for.
-    static constexpr std::size_t kWorthATeam = 96;  // robots
 
     /// `chosen`, ascending, index the call's robots; `works`: buffers for as many. A group of one costs no
     /// search for pairs.
@@ -57,6 +56,7 @@ class RobotGroup {
     std::span<const std::uint32_t> chosen_;
     std::span<RobotWork> robots_;
     GroupScratch& s_;
+    std::size_t weight_ = 0;  // of all robots (weight_of)
 };
 
 template <class StepIsland>

@@ -308,15 +308,31 @@ void add_report(const StepReport& from, StepReport& to) {
     note_failure_of(from, to);
 }
 
+std::size_t weight_of(const StepCall& call, const Unit& unit, Impl& s) {
+    const std::span<const std::uint32_t> robots =
+        unit.kind == Unit::Kind::kGroup ? std::span<const std::uint32_t>(s.sets.near()) : s.lone;
+    std::size_t sum = 0;
+    for (const std::uint32_t i : robots.subspan(unit.first, unit.last - unit.first))
+        sum += weight_of(call.model.type_of(call.robots[i]));
+    return sum;
+}
+
 /// Large groups by all threads of the team, one after the other; then what is small, side by side. No bit
 /// depends on it.
 void step_side_by_side(const StepCall& call, Impl& s) {
     list_lone_robots(call, s);
-    const auto is_large = [](const Unit& unit) {
-        return unit.kind == Unit::Kind::kGroup && unit.last - unit.first >= RobotGroup::kWorthATeam;
+    const auto is_large = [&](const Unit& unit) {
+        return unit.kind != Unit::Kind::kLanes && weight_of(call, unit, s) >= kTeamFrom;
     };
-    for (const Unit& unit : s.units)
-        if (is_large(unit)) step_sets(call, unit, s.works, s.group, s);
+    for (const Unit& unit : s.units) {
+        if (!is_large(unit)) continue;
+        if (unit.kind == Unit::Kind::kGroup) {
+            step_sets(call, unit, s.works, s.group, s);
+            continue;
+        }
+        for (std::size_t k = unit.first; k < unit.last; ++k)
+            step_group(call, {&s.lone[k], 1}, s.alone, s.group, s);
+    }
     std::erase_if(s.units, is_large);
     call.clock.enter(Stage::kVelocities);  // of all that follows; it is most of it
     prepare_helpers(s);
@@ -331,10 +347,9 @@ void step_side_by_side(const StepCall& call, Impl& s) {
 
 /// Batches of robots that may meet, and of those that meet nobody: step_robots (tick.h).
 void step_batches(const StepCall& call, Impl& s) {
-    constexpr std::size_t kWorthIt = 96;  // robots
     s.units.clear();
     list_sets(call, s);
-    if (s.group.team.size() > 1 && call.robots.size() - s.sets.sleepers().size() >= kWorthIt &&
+    if (s.group.team.size() > 1 && call.robots.size() - s.sets.sleepers().size() >= kTeamFrom &&
         !s.group.keep_reactions && call.model.precision == Precision::kDouble)
         return step_side_by_side(call, s);
     for (const Unit& unit : s.units) step_sets(call, unit, s.works, s.group, s);

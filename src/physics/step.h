@@ -50,6 +50,13 @@ struct StepReport {
 
 inline constexpr std::size_t kMostLanes = 16;  // robots that any processor steps at once
 
+/// The work of a robot in robots: one with many loops counts by its bodies.
+inline std::size_t weight_of(const RobotType& type) {
+    return type.elimination.empty() ? 1 : type.bodies.size();
+}
+/// The weight of a group of robots that may meet from which a team shares its work.
+inline constexpr std::size_t kTeamFrom = 96;
+
 /// Buffers of the step; keep one a thread, so that nothing is allocated once they have grown.
 class StepScratch {
   public:

@@ -44,8 +44,13 @@ TEST(BadInput, MalformedXmlNamesLineAndColumn) {
 TEST(BadInput, OtherXmlIsNotTakenForAWorld) {
     EXPECT_NE(load_text("<html><body/></html>").find("not-sdf"), nullptr);
     EXPECT_NE(load_text("<sdf version='1.9'></sdf>").find("no-world"), nullptr);
-    EXPECT_FALSE(load_text("").world);
-    EXPECT_FALSE(load_text("hello").world);
+    for (const char* text : {"", "\n ", "hello", "#usda 1.0\n", "PK\3\4"}) {
+        const Loaded loaded = load_text(text);
+        EXPECT_FALSE(loaded.world);
+        EXPECT_TRUE(loaded.find("not-xml")) << loaded.text();
+    }
+    EXPECT_TRUE(load_text("\xEF\xBB\xBF<sdf version='1.9'><world name='w'/></sdf>").world);
+    EXPECT_FALSE(load_text("\xEF\xBB\xBFhello").world);
 }
 
 TEST(BadInput, AJointToNowhereIsAnError) {

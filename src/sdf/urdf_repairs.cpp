@@ -10,6 +10,7 @@
 #include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 #include "sdf/element_reader.h"
 #include "world/joint_type.h"
@@ -57,6 +58,41 @@ void mend_inertials(pugi::xml_node robot, const SourceFile& urdf, Diagnostics& d
         if (const auto inertial = link.child("inertial"))
             mend_inertial(inertial, urdf.where(source), diagnostics);
         source = source.next_sibling("link");
+    }
+}
+
+void mend_limit(pugi::xml_node joint, const SourceLocation& where, Diagnostics& diagnostics) {
+    const std::string type = joint.attribute("type").value(), name = joint.attribute("name").value();
+    if (type != "revolute" && type != "prismatic" && type != "continuous") return;
+    auto limit = joint.child("limit");
+    if (!limit && type == "continuous") return;
+    if (!limit) {
+        limit = joint.append_child("limit");
+        for (const char* bound : {"effort", "velocity"})
+            limit.append_attribute(bound) = "-1";  // none, in SDFormat
+        if (type == "revolute") joint.attribute("type").set_value("continuous");
+        limit.append_attribute("lower") = "-1e16";  // none, in SDFormat
+        limit.append_attribute("upper") = "1e16";
+        diagnostics.warning(where, "missing-limit",
+                            "joint '" + name + "' has no <limit>: it moves without limits",
+                            "Write <limit lower=\"...\" upper=\"...\" effort=\"...\" velocity=\"...\"/>.");
+        return;
+    }
+    for (const char* bound : {"effort", "velocity"}) {
+        if (limit.attribute(bound)) continue;
+        limit.append_attribute(bound) = "-1";
+        diagnostics.warning(where, "missing-limit",
+                            "<limit> of joint '" + name + "' has no " + bound + ": there is no bound on it",
+                            "Write " + std::string(bound) + "=\"...\".");
+    }
+}
+
+/// urdfdom refuses the file for what is missing.
+void mend_limits(pugi::xml_node robot, const SourceFile& urdf, Diagnostics& diagnostics) {
+    auto source = urdf.root().child("joint");
+    for (auto joint = robot.child("joint"); joint; joint = joint.next_sibling("joint")) {
+        mend_limit(joint, urdf.where(source), diagnostics);
+        source = source.next_sibling("joint");
     }
 }
 
@@ -196,6 +232,57 @@ void make_scenery(pugi::xml_node robot, const SourceFile& urdf, Diagnostics& dia
                         "Give each link an <inertial> with <mass> and <inertia> if it shall move.");
 }
 
+/// The link that is no child, if there is one such link.
+pugi::xml_node root_of(pugi::xml_node robot) {
+    pugi::xml_node root;
+    for (const auto link : robot.children("link")) {
+        const std::string_view name = link.attribute("name").value();
+        const auto joints = robot.children("joint");
+        if (std::any_of(joints.begin(), joints.end(),
+                        [&](auto joint) { return name == joint.child("child").attribute("link").value(); }))
+            continue;
+        if (root) return {};
+        root = link;
+    }
+    return root;
+}
+
+/// The link and what is fixed to it.
+std::vector<pugi::xml_node> fixed_to(pugi::xml_node robot, pugi::xml_node link) {
+    std::vector<pugi::xml_node> all{link};
+    for (std::size_t k = 0; k < all.size(); ++k)
+        for (const auto joint : robot.children("joint")) {
+            const auto parent = joint.child("parent").attribute("link");
+            if (moves(joint) || std::string_view(parent.value()) != all[k].attribute("name").value())
+                continue;
+            const char* name = joint.child("child").attribute("link").value();
+            const auto child = robot.find_child_by_attribute("link", "name", name);
+            if (child && std::ranges::find(all, child) == all.end()) all.push_back(child);
+        }
+    return all;
+}
+
+void ground_root(pugi::xml_node robot, const SourceFile& urdf, Diagnostics& diagnostics) {
+    const auto links = robot.children("link");
+    auto root = root_of(robot);
+    if (!root || is_world(root) || std::none_of(links.begin(), links.end(), has_mass)) return;
+    const std::vector<pugi::xml_node> base = fixed_to(robot, root);
+    if (std::ranges::any_of(base, has_mass) || std::any_of(links.begin(), links.end(), is_world)) return;
+    const std::string name = root.attribute("name").value();
+    give_unit_inertial(root);
+    robot.append_child("link").append_attribute("name") = "world";
+    auto joint = robot.append_child("joint");
+    joint.append_attribute("name") = (name + "_to_world").c_str();
+    joint.append_attribute("type") = "fixed";
+    joint.append_child("parent").append_attribute("link") = "world";
+    joint.append_child("child").append_attribute("link") = name.c_str();
+    const auto source = urdf.root().find_child_by_attribute("link", "name", name.c_str());
+    diagnostics.warning(
+        urdf.where(source), "no-inertial",
+        "link '" + name + "', on which the robot stands, has no mass: it is fixed to the world",
+        "Give it an <inertial> if it shall move.");
+}
+
 }  // namespace
 
 void repair_urdf(pugi::xml_node robot, const SourceFile& urdf, Diagnostics& diagnostics) {
@@ -204,8 +291,10 @@ void repair_urdf(pugi::xml_node robot, const SourceFile& urdf, Diagnostics& diag
     make_scenery(robot, urdf, diagnostics);
     mend_inertials(robot, urdf, diagnostics);
     drop_empty_inertials(robot);
+    mend_limits(robot, urdf, diagnostics);
     rename_scoped(robot, urdf, diagnostics);
     rename_joints(robot, urdf, diagnostics);
+    ground_root(robot, urdf, diagnostics);
 }
 
 bool stand_in_for_masses(pugi::xml_node robot, const SourceFile& urdf, Diagnostics& diagnostics) {

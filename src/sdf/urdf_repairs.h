@@ -15,7 +15,13 @@ namespace roboss::sdf_import {
 /// - an inertial with a mass but without all moments gets moments of 0, which compile() mends;
 /// - a joint with the name of a link gets "_joint" behind it: SDFormat has one set of names for both;
 /// - "::" in names becomes "__": SDFormat keeps it for nested models;
+/// - a limit without effort or velocity has none of these bounds, and a hinge or slide without <limit> has
+/// none at
+///   all, as in MuJoCo and PyBullet;
 /// - a robot without mass and without a joint that moves becomes a static model;
+/// - a robot of which joints move on a root without mass stands fixed in the world by it, as in MuJoCo:
+/// libsdformat
+///   would leave out all of it;
 /// - a robot without a name gets that of its file.
 void repair_urdf(pugi::xml_node robot, const SourceFile& urdf, Diagnostics& diagnostics);
 

@@ -283,6 +283,53 @@ TEST(Urdf, SaysWhatIsLostWithALinkWithoutMass) {
     }
 }
 
+TEST(Urdf, ARootWithoutMassIsFixedToTheWorld) {
+    const std::string cart =
+        "<link name='cart'><inertial><mass value='2'/><inertia ixx='1' iyy='1' izz='1' ixy='0' ixz='0' "
+        "iyz='0'/>"
+        "</inertial></link>";
+    const std::string slide =
+        "<joint name='s' type='prismatic'><parent link='rail'/><child link='cart'/><axis xyz='0 1 0'/>"
+        "<limit lower='-4' upper='4' effort='9' velocity='9'/></joint>";
+    const Loaded loaded =
+        load_text("<robot name='r'>\n<link name='rail'/>" + cart + slide + "</robot>", "r.urdf");
+    ASSERT_TRUE(loaded.world) << loaded.text();
+    EXPECT_FALSE(loaded.diagnostics.has_errors()) << loaded.text();
+    EXPECT_EQ(loaded.find("no-inertial")->where.line, 2) << loaded.text();
+    const ModelSpec& robot = loaded.world->prototypes.at(0);
+    EXPECT_TRUE(std::ranges::any_of(robot.joints, [](const JointSpec& j) { return j.name == "s"; }));
+    EXPECT_TRUE(std::ranges::any_of(robot.joints, [](const JointSpec& j) { return j.parent == "world"; }));
+    const Loaded held =
+        load_text("<robot name='r'><link name='rail'/>" + cart + slide +
+                  "<link name='foot'><inertial><mass value='1'/><inertia ixx='1' iyy='1' izz='1' "
+                  "ixy='0' ixz='0' iyz='0'/></inertial></link><joint name='f' type='fixed'><parent "
+                  "link='rail'/><child link='foot'/></joint></robot>");
+    ASSERT_TRUE(held.world) << held.text();
+    EXPECT_FALSE(held.find("no-inertial")) << "what is fixed to the root has mass";
+}
+
+TEST(Urdf, WhatALimitDoesNotSayHasNoBound) {
+    std::string text = kArm;
+    const std::string numbers = " effort='20' velocity='3'";
+    text.erase(text.find(numbers), numbers.size());
+    const Loaded partly = load_text(text);
+    ASSERT_TRUE(partly.world) << partly.text();
+    const AxisSpec& axis = partly.world->prototypes[0].joints.back().axes[0];
+    EXPECT_DOUBLE_EQ(axis.upper, 1.5);
+    EXPECT_LT(axis.max_effort, 0);
+    EXPECT_EQ(partly.find("missing-limit")->severity, Severity::kWarning);
+    const std::string limit = "<limit lower='-1' upper='1.5'/>";
+    text.erase(text.find(limit), limit.size());
+    for (const char* type : {"revolute", "prismatic"}) {
+        std::string whole = text;
+        whole.replace(whole.find("revolute"), 8, type);
+        const Loaded loaded = load_text(whole);
+        ASSERT_TRUE(loaded.world) << loaded.text();
+        EXPECT_FALSE(loaded.world->prototypes[0].joints.back().axes[0].has_limits()) << type;
+        EXPECT_TRUE(loaded.find("missing-limit"));
+    }
+}
+
 TEST(Urdf, MimicJointsFollow) {
     std::string hand = kArm;
     const std::string finger =

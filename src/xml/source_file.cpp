@@ -2,10 +2,12 @@
 #include "xml/source_file.h"
 
 #include <algorithm>
+#include <cctype>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/similar.h"
@@ -40,10 +42,40 @@ pugi::xml_node too_deep(pugi::xml_node root) {
     return {};
 }
 
+/// Whether the text begins as no XML does, of whatever encoding.
+bool is_other_text(const std::string& text) {
+    const auto first = std::ranges::find_if_not(text, is_space);
+    return first == text.end() ||
+           (*first != '<' && *first != '\0' && static_cast<unsigned char>(*first) < 0x80);
+}
+
+/// What to do about a file that is no XML, by the ending of its name.
+std::string remedy_for_other(const std::string& path) {
+    struct Kind {
+        std::string_view ending;
+        const char* remedy;
+    };
+    constexpr const char* kMesh =
+        "A mesh is no world: name it in <mesh><uri> of an SDFormat or URDF file, or in <asset> of an MJCF "
+        "file.";
+    constexpr const char* kUsd = "Export it as URDF or MJCF; USD is not read.";
+    constexpr const char* kWebots =
+        "Export its robots as URDF in Webots (Export URDF); its worlds are not read.";
+    constexpr Kind kKinds[] = {{".stl", kMesh},    {".obj", kMesh},  {".ply", kMesh}, {".fbx", kMesh},
+                               {".glb", kMesh},    {".gltf", kMesh}, {".wrl", kMesh}, {".usd", kUsd},
+                               {".usda", kUsd},    {".usdc", kUsd},  {".usdz", kUsd}, {".wbt", kWebots},
+                               {".proto", kWebots}};
+    std::string ending = std::filesystem::path(path).extension().string();
+    for (char& c : ending) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    const auto known = std::ranges::find(kKinds, ending, &Kind::ending);
+    return known != std::end(kKinds) ? known->remedy : "Give an SDFormat, URDF or MJCF file.";
+}
+
 /// What to do about a file that cannot be read: the file of the folder that was probably meant.
 std::string remedy_for(const std::string& path) {
     namespace fs = std::filesystem;
     std::error_code error;
+    if (path.empty()) return "Write a path.";
     const fs::path wanted(path), folder = wanted.has_parent_path() ? wanted.parent_path() : fs::path(".");
     if (!fs::exists(folder, error)) return "There is no folder '" + folder.string() + "'; check the path.";
     std::vector<std::string> names;
@@ -136,6 +168,13 @@ bool SourceFile::parse(std::string text, Diagnostics& diagnostics) {
         diagnostics.warning({path_, line_of_offset(result.offset)}, "stray-end-tag",
                             "an end tag after the end of the file's element is passed over", "Remove it.");
         result.status = pugi::status_ok;
+    }
+    if (!result && is_other_text(text)) {
+        diagnostics.error(
+            {path_, 1}, "not-xml",
+            text.empty() ? "the file is empty" : "the file is no XML: it does not begin with '<'",
+            remedy_for_other(path_));
+        return false;
     }
     if (!result) {
         const int line = line_of_offset(result.offset);

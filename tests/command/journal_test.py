@@ -222,6 +222,20 @@ class Journal(RobossTest):
         self.assertEqual(summary(*RUNS["city"], "--until", UNTIL, "--journal", file)["state_hash"], undisturbed("city"),
                          "and with room again, it goes on")
 
+    def test_a_journal_whose_first_checkpoint_is_damaged_is_not_continued(self):
+        file, other = fresh("damaged.journal"), fresh("other.journal")
+        shutil.copy(kept("pile"), file)
+        with contextlib.closing(sqlite3.connect(file)) as db, db:
+            db.execute("UPDATE checkpoints SET memory = zeroblob(length(memory) + 1) WHERE tick = (SELECT min(tick) FROM checkpoints)")
+        before = file.read_bytes()
+        done = roboss("run", *RUNS["pile"], "--until", UNTIL + 0.1, "--journal", file)
+        self.assertEqual(done.returncode, 1, done.stderr)
+        for word in ("[journal-damaged]", "the checkpoint at tick 0", f"--from {file}"):
+            self.assertIn(word, done.stderr)
+        self.assertEqual(file.read_bytes(), before)
+        gone_on = summary(*RUNS["pile"], "--until", UNTIL + 0.1, "--from", file, "--journal", other)
+        self.assertEqual(gone_on["state_hash"], summary(*RUNS["pile"], "--until", UNTIL + 0.1)["state_hash"])
+
     def test_a_journal_that_does_not_fit_is_refused_and_left_alone(self):
         file = kept("pile")
         whole = file.read_bytes()

@@ -198,6 +198,15 @@ Result<SavedRun> RunJournal::last_run(const Journal& journal, const Branch& bran
 Result<> RunJournal::resume(const Model& model) {
     Result<Journal> journal = Journal::open(o_.journal);
     if (!journal) return journal.error();
+    // What is continued shall be whole, or a rewind fails hours later.
+    if (Journal::is_small(o_.journal))
+        if (Result<> whole = journal.value().inspect(); !whole)
+            return Error{
+                whole.error().message,
+                fmt::format("take another copy of the file, or go on from its end in a new one: --from {} "
+                            "--journal ANOTHER",
+                            o_.journal),
+                whole.error().code};
     Result<Branch> branch = journal.value().branch();
     if (!branch) return branch.error();
     Result<std::shared_ptr<const Model>> its_model = model_of(journal.value(), branch.value(), model);

@@ -138,6 +138,8 @@ bool gather_island(const Model& model, std::span<RobotWork> robots, IslandScratc
     s.robots.clear(), s.offsets.clear();
     s.surfaces.clear(), s.rows.clear(), s.v.clear();
     s.offsets_of_group.resize(robots.size());
+    s.rows.keeps_places =
+        std::ranges::any_of(members, [&](std::uint32_t m) { return !robots[m].type->elimination.empty(); });
     bool split = false;
     for (std::uint32_t m : members) {
         RobotWork& work = robots[m];
@@ -367,6 +369,7 @@ ContactIsland::ContactIsland(const Model& model, std::span<RobotWork> robots,
     : model_(model), robots_(robots), members_(members), s_(scratch), report_(report) {
     ROBOSS_CHECK(!members.empty(), "a contact island without robots");
     s_.contacts.clear();
+    s_.free_buffer.share_with(s_.team);
     gather_bonds(members, s_);
     const auto is_tied = [&](const HeldBond& b) {
         return b.other == HeldBond::kScenery || !robots[b.holder].type->free_base ||

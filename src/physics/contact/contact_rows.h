@@ -239,6 +239,13 @@ void start_from_load(const ContactT<T>& c, const FrictionEllipse& friction, cons
     row.slip.target_1 = select(loaded, t1, T(0)), row.slip.target_2 = select(loaded, t2, T(0));
 }
 
+inline ContactPlace place_of(const Contact& c, const ContactFrame& frame, const ContactSide<double>& a,
+                             const ContactSide<double>* b) {
+    ContactPlace place{a.body, -1, c.p_W - a.robot->origin, {}, {frame.n, frame.t1, frame.t2}};
+    if (b != nullptr) place.body_b = b->body, place.arm_b = c.p_W + c.shift_b - b->robot->origin;
+    return place;
+}
+
 /// Where surfaces move, rows hold their velocities against each other and not those of the bodies.
 template <class T>
 void count_surface_motion(const SurfacePair& surface, const ContactFrameT<T>& frame, ContactRowT<T>& row) {
@@ -283,6 +290,8 @@ MaskOf<T> add_contact_row(const Model& model, const ContactT<T>& c, const Surfac
         if (b->robot == a.robot) rows.columns.merge(row.first, middle);
     }
     row.last = rows.columns.size();
+    if constexpr (std::is_same_v<T, double>)
+        if (rows.keeps_places) rows.places.push_back(contact::place_of(c, frame, a, b));
     const MaskOf<T> loaded = c.load > T(0);
     const MaskOf<T> hits = approach > T(contact::kTouchTicks * norm(model.gravity) * dt);
     const T compliance =

@@ -8,6 +8,7 @@
 #include "core/check.h"
 #include "physics/contact/friction_bounds.h"
 #include "physics/solver/row_math.h"
+#include "physics/step.h"
 
 namespace roboss {
 namespace {
@@ -41,7 +42,10 @@ void IslandParts::ByPart::sort(std::size_t parts, std::span<const std::uint32_t>
 SolveReport IslandParts::solve(Problem p, std::vector<double>& v, const Team& team) {
     const std::size_t count = p.robots.size();
     largest_part_ = static_cast<int>(count);
-    if (!has_parts(p)) return solvers_[0].islands.solve(p, v);
+    if (!has_parts(p)) {
+        solvers_[0].islands.share_with(team);
+        return solvers_[0].islands.solve(p, v);
+    }
     prepare(p, v.size());
     join_by_pushing(p, v);
     SolveReport report;
@@ -49,7 +53,7 @@ SolveReport IslandParts::solve(Problem p, std::vector<double>& v, const Team& te
     largest_part_ = 0;
     for (int round = 0;; ++round) {
         sort_by_parts(p);
-        list_changed(team);
+        list_changed(p, team);
         p.again = round > 0;
         solve_changed(p, team, v, report);
         std::ranges::fill(changed_, 0);
@@ -83,7 +87,7 @@ void IslandParts::profile_friction(const Problem& p, SolverProfile& profile) con
 
 /// Lists the parts that are to be solved. For a team: first those that all its threads solve together, which
 /// are more than a thread's share; then the others, sorted within the share of each thread.
-void IslandParts::list_changed(const Team& team) {
+void IslandParts::list_changed(const Problem& p, const Team& team) {
     to_solve_.clear(), together_ = 0;
     std::size_t all = 0;
     for (std::uint32_t part = 0; part + 1 < robots_.first.size(); ++part) {
@@ -94,8 +98,15 @@ void IslandParts::list_changed(const Team& team) {
     }
     if (team.size() == 1) return;
     const auto size = [&](std::uint32_t part) { return robots_.of(part).size(); };
+    const auto net = [&](std::uint32_t part) {  // bodies of robots with many loops
+        std::size_t sum = 0;
+        for (const std::uint32_t r : robots_.of(part))
+            if (!p.robots[r]->type->elimination.empty()) sum += weight_of(*p.robots[r]->type);
+        return sum;
+    };
     const auto is_large = [&](std::uint32_t part) {
-        return size(part) >= BodySolver::kWorthATeam && 2 * size(part) * team.size() > all;
+        return net(part) >= kTeamFrom ||
+               (size(part) >= BodySolver::kWorthATeam && 2 * size(part) * team.size() > all);
     };
     const auto others = std::ranges::partition(to_solve_, is_large);
     together_ = to_solve_.size() - others.size();
@@ -114,8 +125,10 @@ void IslandParts::solve_changed(const Problem& p, const Team& team, std::vector<
                                 SolveReport& report) {
     if (solvers_.size() < team.size()) solvers_.resize(team.size());
     reports_.resize(to_solve_.size());
+    solvers_[0].islands.share_with(team);
     for (std::size_t k = 0; k < together_; ++k)
         reports_[k] = solve_part(p, to_solve_[k], solvers_[0], v, team);
+    solvers_[0].islands.share_with({});
     team.run(to_solve_.size() - together_, [&](std::size_t k, std::size_t worker) {
         reports_[together_ + k] = solve_part(p, to_solve_[together_ + k], solvers_[worker], v, {});
     });
@@ -291,6 +304,7 @@ void IslandParts::take_part(const Problem& p, std::size_t part, const std::vecto
     for (const std::uint32_t c : contacts_.of(part)) {
         s.local_contact[c] = static_cast<std::uint32_t>(s.rows.contacts.size());
         ContactRow& row = s.rows.contacts.emplace_back(p.rows.contacts[c]);
+        if (p.rows.keeps_places) s.rows.places.push_back(p.rows.places[c]);
         take_columns(p, s, row.first, row.last);
     }
     for (const std::uint32_t a : angulars_.of(part)) {

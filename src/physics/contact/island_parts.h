@@ -65,7 +65,7 @@ class IslandParts {
     void join_all();
     void sort_by_parts(const Problem& p);
     static bool has_parts(const Problem& p);
-    void list_changed(const Team& team);
+    void list_changed(const Problem& p, const Team& team);
     void solve_changed(const Problem& p, const Team& team, std::vector<double>& v, SolveReport& report);
     SolveReport solve_part(const Problem& p, std::size_t part, PartSolver& s, std::vector<double>& v,
                            const Team& team) const;

@@ -91,6 +91,12 @@ void compute_impulse(const Model& model, double dt, double momentum_weight, std:
     sum_impulses(dt, momentum_weight, q, v, work);
 }
 
+void keep_inertias(const RobotType& type, double dt, Mechanics<double>& work) {
+    work.own_inertias.clear(), work.joint_inertias.clear();
+    for (const BodyWork& body : work.bodies) work.own_inertias.push_back(body.inertia);
+    for (const Dof& dof : type.dofs) work.joint_inertias.push_back(joint_inertia(dof, dt));
+}
+
 void compute_inertias(const RobotType& type, RobotWork& work) {
     for (std::size_t b = 0; b < type.bodies.size(); ++b) set_inertia(type.bodies[b], work.bodies[b]);
     work.flows.clear();

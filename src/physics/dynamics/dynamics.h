@@ -174,9 +174,18 @@ void put_base_rows(const SpatialInertiaT<T>& whole, T* row) {
     std::copy_n(entries, 21, row);
 }
 
+/// What stands on a degree of freedom beside the inertias: rotor, damping and spring.
+inline double joint_inertia(const Dof& dof, double dt) {
+    return dof.armature + dt * dof.damping + dt * dt * dof.spring_stiffness;
+}
+
+void keep_inertias(const RobotType& type, double dt, Mechanics<double>& work);
+
 template <class T>
 void compute_mass_matrix(const RobotType& type, double dt, Mechanics<T>& work) {
     work.mass_matrix.resize(type.paths.entries());
+    if constexpr (std::is_same_v<T, double>)
+        if (!type.elimination.empty()) keep_inertias(type, dt, work);
     for (std::size_t b = type.bodies.size(); b-- > 0;) {
         const Body& body = type.bodies[b];
         const SpatialInertiaT<T>& subtree = work.bodies[b].inertia;
@@ -199,8 +208,7 @@ void compute_mass_matrix(const RobotType& type, double dt, Mechanics<T>& work) {
     for (std::size_t d = 0; d < type.dofs.size(); ++d) {
         const Dof& dof = type.dofs[d];
         const std::size_t i = d + static_cast<std::size_t>(type.base_nv());
-        work.mass_matrix[type.paths.diagonal(i)] +=
-            T(dof.armature + dt * dof.damping + dt * dt * dof.spring_stiffness);
+        work.mass_matrix[type.paths.diagonal(i)] += T(joint_inertia(dof, dt));
     }
     if constexpr (std::is_same_v<T, double>)
         if (!work.flows.empty()) add_flow_inertia(type, work);

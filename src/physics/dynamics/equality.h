@@ -53,6 +53,8 @@ void times_rows(const RobotWork& work, std::span<const double> x, std::span<cons
 /// them) are met with those, and get no impulse.
 class EqualitySolver {
   public:
+    /// Whose threads may share the work.
+    void share_with(const Team& team) { by_joints_.share_with(team); }
     /// Whether prepare() needs the mass matrix.
     static bool needs_mass_matrix(const RobotType& type) { return type.elimination.empty(); }
     /// `work`: placed, its mass matrix factored by tree_factor, if it is needed, with what is locked;
@@ -60,6 +62,11 @@ class EqualitySolver {
     void prepare(const RobotWork& work, std::span<const char> locked, const Equalities& equalities);
     /// change = M^-1 J^T impulses, such that J change = wanted.
     void solve(std::span<const double> wanted, std::span<double> change);
+    /// SparseEqualitySolver::accelerate, for types that need no mass matrix.
+    void accelerate(std::span<const double> forces, std::span<const double> wanted,
+                    std::span<double> acceleration) {
+        by_joints_.accelerate(forces, wanted, acceleration);
+    }
 
   private:
     void factor();
@@ -80,6 +87,7 @@ class EqualitySolver {
 /// of its mass: momentum stays. Degrees of freedom that are `locked` do not move.
 class EqualityProjection {
   public:
+    void share_with(const Team& team) { solver_.share_with(team); }
     void close_coordinates(const RobotType& type, std::span<double> q, std::span<const char> locked = {});
     void close_velocities(const RobotType& type, std::span<const double> q, std::span<double> v,
                           std::span<const char> locked = {});

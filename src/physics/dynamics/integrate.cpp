@@ -28,6 +28,18 @@ void normalise(const RobotType& type, std::span<double> q) {
         visit_joint(body.joint, [&](auto joint) { joint.normalise(q.data() + body.q_index); });
 }
 
+/// The acceleration of a net by the forces on its tree, loops closed, into its work's velocity.
+void net_acceleration(std::span<const double> q, std::span<const char> locked, FreeBuffer& free) {
+    RobotWork& work = free.work;
+    gather_for_solver(work, q, free.equalities);
+    leave_out_locked(locked, free.equalities);
+    free.solver.prepare(work, locked, free.equalities);
+    free.wanted.clear();
+    for (const EqualityRow& row : free.equalities.rows) free.wanted.push_back(-row.curvature);
+    work.velocity.resize(work.impulse.size());
+    free.solver.accelerate(work.impulse, free.wanted, work.velocity);
+}
+
 /// Adds what loops and couplings accelerate: so much that their second derivatives are zero.
 void add_equality_acceleration(std::span<const double> q, std::span<const char> locked, FreeBuffer& free) {
     RobotWork& work = free.work;
@@ -60,20 +72,25 @@ void add_joint_forces(const Model& model, std::span<const double> q, std::span<c
     }
 }
 
-/// Acceleration of the robot's tree at (q, v), its loops open, with what acts on it evenly, into its work's
-/// velocity.
-void tree_acceleration(const Model& model, const SteadyRows& rows, std::span<const double> q,
-                       std::span<const double> v, FreeBuffer& free) {
+/// Places the robot at (q, v) and sums what acts on its tree into its work's impulse.
+void gather_forces(const Model& model, const SteadyRows& rows, std::span<const double> q,
+                   std::span<const double> v, FreeBuffer& free) {
     RobotWork& buffer = free.work;
     const RobotType& type = *buffer.type;
     forward_kinematics<double>(type, q, buffer);
     forward_velocities<double>(type, v, buffer);
     compute_impulse(model, 1.0, 0.0, q, v, buffer);
-    compute_mass_matrix<double>(type, 0.0, buffer);
     add_joint_forces(model, q, v, rows.has_stiff, buffer);
     for (std::size_t i = 0; i < rows.force.size(); ++i) buffer.impulse[i] += rows.force[i];
     for (std::size_t i = 0; i < rows.locked.size(); ++i)
         if (rows.locked[i]) buffer.impulse[i] = 0;
+}
+
+/// Acceleration of the robot's tree by these forces, its loops open, into its work's velocity.
+void tree_acceleration(const SteadyRows& rows, FreeBuffer& free) {
+    RobotWork& buffer = free.work;
+    const RobotType& type = *buffer.type;
+    compute_mass_matrix<double>(type, 0.0, buffer);
     lock_rows(type.paths, rows.locked, buffer.mass_matrix.data());
     tree_factor(type.paths, buffer.mass_matrix.data());
     buffer.velocity = buffer.impulse;
@@ -178,6 +195,23 @@ void advance_projected(double dt, const SteadyRows& rows, RobotWork& work, FreeB
     close(rows, type, state, buffer);
 }
 
+/// The acceleration at the buffer's q and v, into its work's velocity; at the first stage also the velocity
+/// after the step with the loops open.
+void accelerate(const Model& model, double dt, const SteadyRows& rows, bool is_first, const RobotWork& work,
+                FreeBuffer& buffer) {
+    const RobotType& type = *work.type;
+    gather_forces(model, rows, buffer.q, buffer.v, buffer);
+    if (is_net(type) && !is_first) return net_acceleration(buffer.q, rows.locked, buffer);
+    tree_acceleration(rows, buffer);
+    if (!type.has_equalities()) return;
+    if (is_first) {
+        buffer.open_velocity = work.state->v;
+        for (std::size_t i = 0; i < buffer.open_velocity.size(); ++i)
+            buffer.open_velocity[i] += dt * buffer.work.velocity[i];
+    }
+    add_equality_acceleration(buffer.q, rows.locked, buffer);
+}
+
 /// One step of the method, of length `dt`.
 void advance_part(const Model& model, double dt, const SteadyRows& rows, RobotWork& work,
                   FreeBuffer& buffer) {
@@ -192,14 +226,7 @@ void advance_part(const Model& model, double dt, const SteadyRows& rows, RobotWo
         add_rates(state.v, dt, weights, buffer.v_rates, buffer.v_sum, buffer.v);
         normalise(type, buffer.q);
         coordinate_rate(type, buffer.q, buffer.v, std::span(buffer.q_rates).subspan(stage * nq, nq));
-        tree_acceleration(model, rows, buffer.q, buffer.v, buffer);
-        if (type.has_equalities()) {
-            if (stage == 0) {
-                buffer.open_velocity = state.v;
-                for (std::size_t i = 0; i < nv; ++i) buffer.open_velocity[i] += dt * buffer.work.velocity[i];
-            }
-            add_equality_acceleration(buffer.q, rows.locked, buffer);
-        }
+        accelerate(model, dt, rows, stage == 0, work, buffer);
         std::copy(buffer.work.velocity.begin(), buffer.work.velocity.end(),
                   buffer.v_rates.begin() + static_cast<std::ptrdiff_t>(stage * nv));
     }

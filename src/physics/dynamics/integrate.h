@@ -21,6 +21,9 @@ struct HeldJoints {
 };
 
 struct FreeBuffer {
+    /// Whose threads may share the work.
+    void share_with(const Team& team) { solver.share_with(team), projection.share_with(team); }
+
     RobotWork work;
     Equalities equalities;
     EqualitySolver solver;

@@ -50,9 +50,13 @@ struct Mechanics {
     std::vector<BodyWorkT<T>> bodies;
     std::vector<SpatialT<T>> axes;  // one a degree of freedom: motion of its body per unit of v, about O
     std::vector<T> mass_matrix;     // packed by the type's paths; implicit damping and springs included
-    std::vector<T> impulse;         // nv: M v + dt (applied - bias); the free velocity is M^-1 of it
-    std::vector<T> velocity;        // nv: solved
-    std::vector<FlowWork> flows;    // as they stand beside the bodies' inertias
+    // Of a robot with many loops, what the mass matrix is made of: the bodies' own inertias, and what stands
+    // beside them on the diagonal, by joint dof.
+    std::vector<SpatialInertiaT<T>> own_inertias;
+    std::vector<T> joint_inertias;
+    std::vector<T> impulse;       // nv: M v + dt (applied - bias); the free velocity is M^-1 of it
+    std::vector<T> velocity;      // nv: solved
+    std::vector<FlowWork> flows;  // as they stand beside the bodies' inertias
     std::vector<ShapeWorkT<T>> shapes;
     AabbT<T> box;                // interaction bound
     Spatial base;                // velocity of a kinematic base about O; of others zero

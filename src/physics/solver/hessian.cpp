@@ -21,9 +21,16 @@ void Hessian::start(std::span<const Mechanics<double>* const> robots, std::span<
     robots_ = robots;
     offsets_ = offsets;
     n_ = n;
-    is_tree_ = robots.size() == 1 && rows.couplings.empty() &&
-               std::ranges::none_of(rows.contacts, &ContactRow::joins);
-    if (is_tree_) return tree_.start(*robots[0], rows);
+    if (robots.size() == 1 && rows.couplings.empty() &&
+        std::ranges::none_of(rows.contacts, &ContactRow::joins)) {
+        form_ = Form::kTree;
+        return tree_.start(*robots[0], rows);
+    }
+    if (NetHessian::suits(robots, rows)) {
+        form_ = Form::kNet;
+        return net_.start(robots, offsets, rows);
+    }
+    form_ = Form::kFronts;
     start_fronts(rows);
     add_mass();
     hold_nothing(rows);
@@ -62,7 +69,12 @@ bool Hessian::is_last_clique(std::size_t begin) const {
 }
 
 void Hessian::assemble(IslandRows& rows, bool coupled, double lack) {
-    if (is_tree_) return tree_.assemble(rows, coupled, lack);
+    if (form_ == Form::kTree) return tree_.assemble(rows, coupled, lack);
+    if (form_ == Form::kNet) {
+        refused_ = coupled;
+        if (!coupled) net_.assemble(rows);
+        return;
+    }
     add_changes(rows, lack);
     fronts_.begin_factor(!coupled);
     if (coupled) add_slides(rows);
@@ -151,7 +163,11 @@ void Hessian::add_slides(const IslandRows& rows) {
 }
 
 bool Hessian::solve(std::vector<double>& x) {
-    if (is_tree_) return tree_.solve(x);
+    if (form_ == Form::kTree) return tree_.solve(x);
+    if (form_ == Form::kNet) {
+        if (!refused_) net_.solve(x, team_);
+        return !refused_;
+    }
     return fronts_.solve(x);
 }
 

@@ -1,17 +1,21 @@
 // The matrix of Newton's method for any contact island: on the tree of a single robot without fill-in
-// (tree_hessian.h); by fronts where rows couple several robots, or branches of one.
+// (tree_hessian.h); by fronts where rows couple several robots, or branches of one; body by body where robots
+// have many loops (net_hessian.h).
 #pragma once
 
 #include <span>
 #include <vector>
 
 #include "physics/solver/front_factor.h"
+#include "physics/solver/net_hessian.h"
 #include "physics/solver/tree_hessian.h"
 
 namespace roboss {
 
 class Hessian {
   public:
+    /// Whose threads may share the work.
+    void share_with(const Team& team) { team_ = team; }
     /// Chooses the form and, for fronts, the order of elimination; `offsets`: first dof of each robot. The
     /// rows' curvatures are not in yet.
     void start(std::span<const Mechanics<double>* const> robots, std::span<const int> offsets,
@@ -37,8 +41,11 @@ class Hessian {
     std::span<const Mechanics<double>* const> robots_;
     std::span<const int> offsets_;
     std::size_t n_ = 0;
-    bool is_tree_ = false;
+    enum class Form : char { kTree, kFronts, kNet } form_ = Form::kTree;
     TreeHessian<double> tree_;
+    NetHessian net_;
+    bool refused_ = false;  // an unsymmetric matrix, which net_ does not do
+    Team team_;
     FrontFactor fronts_;
     std::vector<int> group_first_, heads_, unknowns_;
     std::vector<FrontFactor::Clique> cliques_;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <span>
 #include <vector>
 
@@ -157,6 +158,13 @@ struct ContactRowT {
 };
 using ContactRow = ContactRowT<double>;
 
+/// Where a contact is on the bodies that it joins, for a solver that moves bodies one by one.
+struct ContactPlace {
+    int body_a = -1, body_b = -1;  // of their robots; -1: a fixed base, or scenery
+    Vec3 arm_a, arm_b;             // from the robots' origins, world axes
+    std::array<Vec3, 3> axes;      // normal and tangents, as the columns are along
+};
+
 /// Torsional friction about the normal and rolling friction about the tangents, bounded by the normal impulse
 /// of a contact of the same island.
 template <class T>
@@ -179,10 +187,12 @@ struct IslandRowsT {
     ContactColumnsT<T> columns;
     std::vector<ContactRowT<T>> contacts;
     std::vector<AngularRowT<T>> angulars;
+    bool keeps_places = false;
+    std::vector<ContactPlace> places;  // of the contacts, if they are kept
 
     void clear() {
         joints.clear(), coupling_columns.clear(), couplings.clear();
-        columns.clear(), contacts.clear(), angulars.clear();
+        columns.clear(), contacts.clear(), angulars.clear(), places.clear();
     }
 };
 using IslandRows = IslandRowsT<double>;

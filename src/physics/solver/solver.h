@@ -27,6 +27,8 @@ class IslandSolver : Newton<double, Hessian> {
   public:
     using Problem = SolveProblem<double>;
 
+    /// Whose threads may share the work.
+    void share_with(const Team& team) { hessian_.share_with(team); }
     /// v (size n) starts as the velocities before the tick and ends as the solution; the rows end with their
     /// impulses.
     SolveReport solve(const Problem& problem, std::vector<double>& v);

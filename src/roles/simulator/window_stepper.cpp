@@ -50,6 +50,14 @@ void WindowStepper::sort_orders(const Assignment& assignment) {
         if (concerns(order)) orders_[next[island_of_[order.robot.index()]]++] = order;
 }
 
+std::size_t WindowStepper::weight(const Assignment& assignment, std::uint32_t island) const {
+    std::size_t sum = 0;
+    for (std::size_t k = assignment.island_offsets[island]; k < assignment.island_offsets[island + 1]; ++k)
+        sum += weight_of(model_->type_of(assignment.robots[k]));
+    return sum;
+}
+
+/// Large islands first; before them, each for itself, robots that are as much work as many.
 void WindowStepper::cut_batches(const Assignment& assignment) {
     const std::size_t robots_most = in_lockstep(assignment) ? kLockstepMost + 1 : kRobotsPerBatch;
     const auto size = [&](std::uint32_t i) {
@@ -57,12 +65,19 @@ void WindowStepper::cut_batches(const Assignment& assignment) {
     };
     sequence_.resize(assignment.island_offsets.size() - 1);
     std::iota(sequence_.begin(), sequence_.end(), 0u);
-    std::stable_sort(sequence_.begin(), sequence_.end(), [&](auto a, auto b) { return size(a) > size(b); });
+    weights_.clear();
+    for (std::uint32_t i = 0; i < sequence_.size(); ++i) weights_.push_back(weight(assignment, i));
+    const auto is_apart = [&](std::uint32_t i) {
+        return !in_lockstep(assignment) && size(i) == 1 && weights_[i] >= kTeamFrom;
+    };
+    std::stable_sort(sequence_.begin(), sequence_.end(), [&](auto a, auto b) {
+        return std::pair(is_apart(a), size(a)) > std::pair(is_apart(b), size(b));
+    });
     batch_offsets_.assign(1, 0);
     std::size_t robots = 0;
     for (std::size_t k = 0; k < sequence_.size(); ++k) {
         robots += size(sequence_[k]);
-        if (robots < robots_most && k + 1 < sequence_.size()) continue;
+        if (robots < robots_most && k + 1 < sequence_.size() && !is_apart(sequence_[k])) continue;
         batch_offsets_.push_back(k + 1);
         robots = 0;
     }
@@ -100,17 +115,16 @@ WindowResult WindowStepper::step(const Assignment& assignment, StateStore& store
     return std::move(job.result);
 }
 
-/// All threads step an island together if it has more than their share of the robots. Such islands are the
-/// first; returns how many.
+/// All threads step an island together if it is more than their share of the work. Such islands are the first;
+/// returns how many.
 std::size_t WindowStepper::step_large_batches(Job& job) {
-    constexpr std::size_t kWorthIt = 96;  // robots: fewer are not shared out (physics/step.cpp)
-    const std::size_t robots = job.assignment.robots.size();
+    const std::size_t all = std::accumulate(weights_.begin(), weights_.end(), std::size_t{0});
     if (in_lockstep(job.assignment)) return 0;
     scratch_[0].use_team(Team(pool_));
     std::size_t large = 0;
     for (; large + 1 < batch_offsets_.size(); ++large) {
-        const std::size_t own = job.robots(sequence_[batch_offsets_[large]]).size();
-        if (own < kWorthIt || own * threads() <= robots) break;
+        const std::size_t own = weights_[sequence_[batch_offsets_[large]]];
+        if (own < kTeamFrom || own * threads() <= all) break;
         step_batch(job, large, 0);
     }
     scratch_[0].use_team({});

@@ -65,6 +65,7 @@ class WindowStepper {
     void measure(bool wanted);
     void report_profile(WindowResult& result);
     void sort_orders(const Assignment& assignment);
+    std::size_t weight(const Assignment& assignment, std::uint32_t island) const;
     void cut_batches(const Assignment& assignment);
     std::size_t step_large_batches(Job& job);
     void step_batch(Job& job, std::size_t batch, std::size_t worker);
@@ -106,6 +107,7 @@ class WindowStepper {
     std::vector<std::size_t> order_offsets_;
     // islands by descending size, in batches worth one reading of the clock
     std::vector<std::uint32_t> sequence_;
+    std::vector<std::size_t> weights_;  // of the islands: robots (weight_of)
     std::vector<std::size_t> batch_offsets_;
     std::vector<double> efforts_;                   // by island (step.h)
     std::vector<std::size_t> next_order_;           // by island, in lockstep
