@@ -2,12 +2,11 @@
 // floating-point environment of a step, and a run of it allocates nothing.
 #pragma once
 
-#include <functional>
-
-#include "core/float_env.h"
-#include "core/thread_pool.h"
+#include <cstddef>
 
 namespace roboss {
+
+class ThreadPool;
 
 class Team {
   public:
@@ -16,23 +15,43 @@ class Team {
     /// All threads of the pool, which must not be running.
     explicit Team(ThreadPool& pool) : pool_(&pool) {}
 
-    std::size_t size() const { return pool_ == nullptr ? 1 : pool_->threads(); }
+    std::size_t size() const;
 
     /// work(item, worker) once for every item in 0 .. count-1; worker < size(). Returns when all are done.
+    /// Each worker begins with a share of its own, those from first_of(count, worker) on, in their order
+    /// (ThreadPool::run_shares).
     template <class Work>
     void run(std::size_t count, const Work& work) const {
-        if (size() == 1 || count < 2) {
-            for (std::size_t item = 0; item < count; ++item) work(item, std::size_t{0});
-            return;
-        }
-        const auto work_exactly = [&work](std::size_t item, std::size_t worker) {
-            const ExactFloatScope exact;
-            work(item, worker);
-        };
-        pool_->run(count, std::cref(work_exactly));
+        run_task(count, {&call<Work>, &work}, true);
+    }
+    /// Likewise, but items are claimed in ascending order, so one may wait for those before it.
+    template <class Work>
+    void run_in_order(std::size_t count, const Work& work) const {
+        run_task(count, {&call<Work>, &work}, false);
+    }
+    std::size_t first_of(std::size_t count, std::size_t worker) const { return count * worker / size(); }
+    /// work(first, last) for blocks of the items 0 .. count-1: side by side if there are at least two, else
+    /// all at once.
+    template <class Work>
+    void run_blocks(std::size_t count, std::size_t block, const Work& work) const {
+        if (size() == 1 || count <= block) return work(std::size_t{0}, count);
+        run((count + block - 1) / block, [&](std::size_t k, std::size_t) {
+            const std::size_t first = k * block, rest = count - first;
+            work(first, first + (rest < block ? rest : block));
+        });
     }
 
   private:
+    struct Task {
+        void (*call)(const void* work, std::size_t item, std::size_t worker);
+        const void* work;
+    };
+    void run_task(std::size_t count, const Task& task, bool by_shares) const;
+    template <class Work>
+    static void call(const void* work, std::size_t item, std::size_t worker) {
+        (*static_cast<const Work*>(work))(item, worker);
+    }
+
     ThreadPool* pool_ = nullptr;
 };
 

@@ -36,6 +36,37 @@ TEST(ThreadPool, BatchesSmallerThanThePoolMixWithLargeOnes) {
     }
 }
 
+TEST(ThreadPool, ShortBatchesRunEveryItemOnceToo) {
+    for (const unsigned threads : {1U, 2U, 3U, 5U}) {
+        ThreadPool pool(threads);
+        for (std::size_t batch = 0; batch < 20'000; ++batch) {
+            std::vector<int> hits(batch % 23, 0);
+            const auto hit = [&](std::size_t item, std::size_t worker) {
+                ASSERT_LT(worker, pool.threads());
+                ++hits[item];
+            };
+            if (batch % 3 == 0)
+                pool.run_short(hits.size(), hit);
+            else
+                pool.run_shares(hits.size(), hit);
+            if (batch % 5000 == 0) pool.run(hits.size(), [](std::size_t, std::size_t) {});  // to sleep
+            for (const int count : hits) ASSERT_EQ(count, 1) << "batch " << batch;
+        }
+    }
+}
+
+TEST(ThreadPool, AnItemOfAShortBatchMayWaitForThoseBeforeIt) {
+    ThreadPool pool(4);
+    for (int batch = 0; batch < 500; ++batch) {
+        std::atomic<std::size_t> done{0};
+        pool.run_short(50, [&](std::size_t item, std::size_t) {
+            while (done != item) std::this_thread::yield();
+            ++done;
+        });
+        ASSERT_EQ(done, 50U);
+    }
+}
+
 // Stacks of threads need address space: a process with little left is one whose system starts few threads.
 void work_with_little_address_space() {
     constexpr rlim_t kLittle = rlim_t{256} << 20;

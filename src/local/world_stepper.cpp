@@ -93,11 +93,9 @@ void WorldStepper::step_batch(Batch& batch, Tick from, Tick until, std::span<con
     if (in_windows_)
         for (const RobotId robot : batch.robots) swept_[robot.index()] = {}, efforts_[robot.index()] = 0;
     batch.outcome = {.tick = until, .not_finite = {}, .not_finite_joint = {}};
-    batch.largest_group = 0;
     for (Tick tick = from; tick < until; ++tick) {
         const StepReport report = step_island(*model_, tick, batch.robots, batch.states,
                                               orders_within(orders, tick, tick + 1), batch.bounds, scratch);
-        batch.largest_group = std::max(batch.largest_group, static_cast<std::size_t>(report.largest_group));
         if (in_windows_) note_tick(batch, scratch);
         if (!report.not_finite.valid()) continue;
         batch.outcome = {tick, report.not_finite, report.not_finite_joint, report.beyond_numbers};

@@ -47,7 +47,6 @@ class WorldStepper {
         std::vector<RobotState*> states;
         std::vector<Aabb> bounds;
         double effort = 0, heaviest = 0;  // of all robots; of its heaviest island
-        std::size_t largest_group = 0;    // StepReport::largest_group, of all ticks
         StepOutcome outcome;
     };
     /// What a step can be undone with: the states at a tick, and the orders since then.
@@ -96,7 +95,6 @@ class WorldStepper {
     Sweep sweep_;
     Tick window_ = 16;
     std::size_t repeats_ = 0;
-    std::size_t largest_group_ = 0;  // of the last window
 };
 
 }  // namespace roboss

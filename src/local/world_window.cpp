@@ -68,16 +68,19 @@ void WorldStepper::plan(Tick ticks, std::span<const Order> orders, std::vector<R
     }
 }
 
-/// All threads step a batch together if one of its islands is more than their share of the work, and most of
-/// its robots may meet. Such batches are the first; returns how many.
+/// All threads step a batch together if one of its islands is more than their share of the work. Such batches
+/// are the first; returns how many.
 std::size_t WorldStepper::step_large_batches(Tick from, Tick until, std::span<const Order> orders) {
     const std::span<Batch> batches = std::span(batches_).first(batch_count_);
     double all = 0;
     for (const Batch& batch : batches) all += batch.effort;
-    const std::size_t groups = std::exchange(largest_group_, 0);
+    const auto weight = [&](const Batch& batch) {
+        std::size_t sum = 0;
+        for (const RobotId robot : batch.robots) sum += weight_of(model_->type_of(robot));
+        return sum;
+    };
     const auto is_large = [&](const Batch& batch) {
-        return batch.heaviest * static_cast<double>(pool_.threads()) > all &&
-               (groups * 2 > batch.robots.size() || batch.robots.size() == 1);
+        return weight(batch) >= kTeamFrom && batch.heaviest * static_cast<double>(pool_.threads()) > all;
     };
     std::size_t large = 0;
     scratch_[0].use_team(Team(pool_));
@@ -93,8 +96,6 @@ bool WorldStepper::run_batches(Tick from, Tick until, std::span<const Order> ord
     pool_.run(batch_count_ - large, [&](std::size_t b, std::size_t worker) {
         step_batch(batches_[large + b], from, until, orders, scratch_[worker]);
     });
-    for (std::size_t b = 0; b < batch_count_; ++b)
-        largest_group_ = std::max(largest_group_, batches_[b].largest_group);
     return std::none_of(batches_.begin(), batches_.begin() + static_cast<std::ptrdiff_t>(batch_count_),
                         [](const Batch& batch) { return batch.outcome.not_finite.valid(); });
 }

@@ -3,8 +3,12 @@
 #include <gtest/gtest.h>
 
 #include <bit>
+#include <limits>
 
 #include <support/scenes.h>
+
+#include "core/thread_pool.h"
+#include "physics/bodies/body_solver.h"
 
 #if defined(__x86_64__)
 #include <xmmintrin.h>
@@ -255,6 +259,70 @@ TEST(Invariance, ATeamOfThreadsGivesTheSameBits) {
     }
     EXPECT_GT(largest, 100);
     EXPECT_GT(contacts, 30000);
+}
+
+TEST(Invariance, ATeamThatStepsSmallGroupsSideBySideGivesTheSameBits) {
+    World world = boxes_and_cars();
+    const std::size_t box = world.prototypes.size() - 2;
+    for (int i = 0; i < 60; ++i) {  // pairs of boxes, boxes that meet nobody, and cars
+        const double x = 3.0 * (i % 10), y = 6.0 * (i / 10), lone = i % 3 == 0 ? 1.5 : 0;
+        const std::string number = std::to_string(i);
+        world.instances.push_back({"box_" + number, box, {{x, y, 0.15}, {}}, {}});
+        world.instances.push_back({"upper_" + number, box, {{x + 0.03 + lone, y, 0.4}, {}}, {}});
+        world.instances.push_back({"car_" + number, box + 1, {{x, y + 3, 0}, {}}, {}});
+    }
+    Simulation alone(world), shared(world);
+    for (Simulation* sim : {&alone, &shared}) {
+        for (std::size_t r = 2; r < sim->states.size(); r += 3)
+            for (std::size_t d = 0; d < 4; ++d) sim->set_motor(r, d, MotorMode::kVelocity, 8);
+        sim->scratch.measure_stages([] { return std::uint64_t{0}; });
+    }
+    ThreadPool two(2), three(3);
+    for (int i = 0; i < 200; ++i) {
+        shared.scratch.use_team(i % 3 == 0 ? Team() : Team(i % 3 == 1 ? two : three));
+        alone.step();
+        shared.step();
+        ASSERT_EQ(alone.report.contacts, shared.report.contacts) << "tick " << i;
+        ASSERT_EQ(alone.report.placed, shared.report.placed) << "tick " << i;
+        ASSERT_EQ(alone.report.asleep, shared.report.asleep) << "tick " << i;
+        ASSERT_EQ(alone.report.iterations, shared.report.iterations) << "tick " << i;
+        ASSERT_EQ(alone.report.profile.solver, shared.report.profile.solver) << "tick " << i;
+        ASSERT_EQ(alone.hash(), shared.hash()) << "tick " << i;
+    }
+    EXPECT_GT(alone.report.contacts, 300);
+    shared.states[7].v[3] = shared.states[100].v[3] = std::numeric_limits<double>::infinity();
+    shared.scratch.use_team(Team(three));
+    shared.step();
+    EXPECT_EQ(shared.report.not_finite, shared.ids[7]) << "of several the lowest";
+}
+
+TEST(Invariance, ATeamThatSolvesOnePartTogetherGivesTheSameBits) {
+    // Balls side by side on the ground, which are pressed together.
+    constexpr int kSide = 28;
+    World world = empty_world(2e-3);
+    place(world, ground(surface(0.7)), "ground");
+    world.prototypes.push_back(solid_sphere(1.0, 0.1, surface(0.5)));
+    for (int i = 0; i < kSide * kSide; ++i)
+        world.instances.push_back(
+            {"ball_" + std::to_string(i), 1, {{0.199 * (i % kSide), 0.199 * (i / kSide), 0.0995}, {}}, {}});
+    Simulation alone(world), shared(world);
+    ThreadPool two(2), three(3);
+    for (Simulation* sim : {&alone, &shared}) {
+        for (RobotState& state : sim->states)
+            for (std::size_t axis = 0; axis < 2; ++axis) state.v[3 + axis] = -0.3 * (state.q[axis] - 2);
+        sim->scratch.measure_stages([] { return std::uint64_t{0}; });
+    }
+    std::uint64_t largest = 0;
+    for (int i = 0; i < 8; ++i) {
+        shared.scratch.use_team(i % 4 == 3 ? Team() : Team(i % 4 == 1 ? three : two));
+        alone.step();
+        shared.step();
+        largest = std::max(largest, alone.report.profile.solver.largest_part);
+        ASSERT_EQ(alone.report.iterations, shared.report.iterations) << "tick " << i;
+        ASSERT_EQ(alone.report.profile.solver, shared.report.profile.solver) << "tick " << i;
+        ASSERT_EQ(alone.hash(), shared.hash()) << "tick " << i;
+    }
+    EXPECT_GE(largest, BodySolver::kWorthATeam);
 }
 
 #if defined(__x86_64__)

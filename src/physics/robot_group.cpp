@@ -2,6 +2,7 @@
 #include "physics/robot_group.h"
 
 #include <algorithm>
+#include <atomic>
 #include <string>
 #include <utility>
 
@@ -10,6 +11,8 @@
 
 namespace roboss {
 namespace {
+
+constexpr std::size_t kBlock = 32;  // robots that a thread of a team takes at a time
 
 /// A sleeper's box is in its state; the rest of it is computed only if something comes near.
 void place(const Model& model, RobotId id, RobotState& state, RobotWork& work) {
@@ -55,14 +58,20 @@ bool touches_one_thing(std::span<const Contact> contacts) {
 bool RobotGroup::forward_kinematics() {
     ROBOSS_CHECK(robots_.size() == chosen_.size(), std::to_string(chosen_.size()) + " robots");
     ROBOSS_CHECK(std::ranges::is_sorted(chosen_), "robots of a group");
-    for (std::size_t k = 0; k < chosen_.size(); ++k) {
-        const std::uint32_t i = chosen_[k];
-        place(call_.model, call_.robots[i], *call_.states[i], robots_[k]);
-        robots_[k].ordered = call_.ordered[i] != 0;
-        call_.bounds[i] = robots_[k].box;
-    }
     weight_ = 0;
-    for (const RobotWork& work : robots_) weight_ += weight_of(*work.type);
+    for (const std::uint32_t i : chosen_) weight_ += weight_of(call_.model.type_of(call_.robots[i]));
+    std::atomic<bool> all_fine{true};
+    team().run_blocks(chosen_.size(), kBlock, [&](std::size_t first, std::size_t last) {
+        for (std::size_t k = first; k < last; ++k) {
+            const std::uint32_t i = chosen_[k];
+            RobotWork& work = robots_[k];
+            place(call_.model, call_.robots[i], *call_.states[i], work);
+            work.ordered = call_.ordered[i] != 0;
+            call_.bounds[i] = work.box;
+            if (!work.asleep && body_beyond_numbers(work)) all_fine = false;
+        }
+    });
+    if (all_fine) return true;
     bool fine = true;
     for (const RobotWork& work : robots_) {
         if (work.asleep) continue;
@@ -77,7 +86,9 @@ bool RobotGroup::forward_kinematics() {
 bool RobotGroup::find_contacts() {
     s_.finder.find(call_.model, robots_, &s_.bonds, s_.keep_reactions, s_.contacts, team());
     ROBOSS_CHECK(std::ranges::is_sorted(s_.contacts, {}, &Contact::robot_a), "contacts");
-    recall_impulses(robots_, s_.contacts);
+    team().run_blocks(robots_.size(), kBlock, [&](std::size_t first, std::size_t last) {
+        recall_impulses(robots_, first, last, s_.contacts);
+    });
     return true;
 }
 
@@ -98,7 +109,7 @@ void RobotGroup::build_contact_islands() {
     s_.islands.sort_by_set(s_.members);
 }
 
-/// Small groups are not worth waking other threads for. Reactions are kept in the order of the islands.
+/// Reactions are kept in the order of the islands.
 Team RobotGroup::team() const {
     return weight_ < kTeamFrom || s_.keep_reactions ? Team() : s_.team;
 }
@@ -137,6 +148,22 @@ std::size_t RobotGroup::count_large() {
     return large;
 }
 
+/// Islands whose robots have neighbouring numbers go to one thread of the team, as in the other stages, so
+/// that they stay in its cache; of each share the largest first.
+void RobotGroup::sort_shares(std::size_t first) {
+    using Members = std::span<const std::uint32_t>;
+    const std::span<Members> waiting = std::span(s_.waiting).subspan(first);
+    const auto front = [](const Members& members) { return members.front(); };
+    std::ranges::sort(waiting, {}, front);
+    for (std::size_t worker = 0; worker < team().size(); ++worker) {
+        const std::size_t begin = team().first_of(waiting.size(), worker),
+                          end = team().first_of(waiting.size(), worker + 1);
+        std::ranges::sort(waiting.subspan(begin, end - begin), [](const Members& a, const Members& b) {
+            return std::pair(b.size(), a.front()) < std::pair(a.size(), b.front());
+        });
+    }
+}
+
 /// A robot that touches nobody may wait until there are enough of its type. In floats it must: whether it is
 /// stepped so hangs on nothing but itself and on who touches it.
 bool RobotGroup::goes_in_lanes(std::span<const std::uint32_t> members) const {
@@ -151,7 +178,9 @@ bool RobotGroup::goes_in_lanes(std::span<const std::uint32_t> members) const {
 
 void RobotGroup::report() {
     StepReport& report = call_.report;
-    remember_impulses(robots_, s_.contacts);
+    team().run_blocks(robots_.size(), kBlock, [&](std::size_t first, std::size_t last) {
+        remember_impulses(robots_, first, last, s_.contacts);
+    });
     count_contacts(call_.model, s_.contacts, report);
     report.asleep += static_cast<int>(robots_.size() - s_.members.size());
     for (RobotWork& work : robots_) {

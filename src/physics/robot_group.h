@@ -21,6 +21,8 @@ struct StepCall {
 /// The stages of a group, called by step_robots in the order in which they are declared.
 class RobotGroup {
   public:
+    /// Smaller groups are not worth waking other threads for.
+
     /// `chosen`, ascending, index the call's robots; `works`: buffers for as many. A group of one costs no
     /// search for pairs.
     RobotGroup(const StepCall& call, std::span<const std::uint32_t> chosen, std::span<RobotWork> works,
@@ -47,6 +49,7 @@ class RobotGroup {
     Team team() const;
     void start_islands();
     std::size_t count_large();
+    void sort_shares(std::size_t first);
     void keep_contact_reports();
 
     const StepCall& call_;
@@ -89,6 +92,7 @@ void RobotGroup::for_each_contact_island(StepIsland&& step, StageClock& clock) {
     s_.island[0].team = team();
     for (std::size_t i = 0; i < large; ++i) step_one(s_.waiting[i]);
     s_.island[0].team = {};
+    sort_shares(large);
     clock.enter(Stage::kVelocities);  // of all that follows; it is most of it
     s_.reports.assign(team().size(), {});
     team().run(s_.waiting.size() - large, [&](std::size_t i, std::size_t worker) {

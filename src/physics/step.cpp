@@ -14,9 +14,34 @@
 #include "physics/lanes/lane_stepper.h"
 #include "physics/near_sets.h"
 #include "physics/robot_group.h"
+#include "physics/step_failure.h"
 #include "physics/tick.h"
 
 namespace roboss {
+
+namespace {
+
+/// What a thread of a team steps small groups with, beside the others.
+struct Helper {
+    explicit Helper(std::size_t lanes_most) : lanes(make_lane_stepper(Precision::kDouble, lanes_most)) {}
+
+    GroupScratch group;
+    std::vector<RobotWork> works;
+    std::vector<RobotWork> alone{1};
+    std::unique_ptr<LaneStepper> lanes;
+    std::vector<std::uint32_t> batch, kept;
+    StepReport report;
+    StageClock clock;
+};
+
+/// What helpers step, one after the other: robots, numbers of the call, that may meet, or in lanes, or each
+/// alone.
+struct Unit {
+    enum class Kind : std::uint8_t { kGroup, kLanes, kAlone } kind = Kind::kGroup;
+    std::size_t first = 0, last = 0;  // of NearSets::near() or Impl::lone
+};
+
+}  // namespace
 
 struct StepScratch::Impl {
     GroupScratch group;
@@ -32,6 +57,10 @@ struct StepScratch::Impl {
     std::unique_ptr<LaneStepper> float_lanes = make_lane_stepper(Precision::kFloat, kMostLanes);
     std::unique_ptr<LaneStepper> single = make_single_stepper();
     LaneQueue queue;
+    std::size_t lanes_most = kMostLanes;
+    std::vector<Helper> helpers;      // one a thread of the team
+    std::vector<Unit> units;          // that they step side by side
+    std::vector<std::uint32_t> lone;  // robots of these that meet nobody
     OnboardScratch onboard;
     RobotWork pulled;  // for those that are pulled
 
@@ -127,10 +156,10 @@ void share_effort(std::span<const std::uint32_t> robots, int iterations, std::ve
 /// not step. One that did not fit for a bond may fit once that is dropped: in floats it must then be stepped
 /// so, as it is where others are near.
 void step_group(const StepCall& call, std::span<const std::uint32_t> chosen, std::span<RobotWork> works,
-                Impl& s, bool tried = false) {
-    s.group.tried_alone = tried;
+                GroupScratch& group_scratch, Impl& s, bool tried = false) {
+    group_scratch.tried_alone = tried;
     const int before = call.report.iterations;
-    RobotGroup group(call, chosen, works, s.group);
+    RobotGroup group(call, chosen, works, group_scratch);
     if (!step_robots(group, call.clock)) return;
     share_effort(chosen, call.report.iterations - before, s.efforts);
     for (std::size_t k = 0; k < chosen.size(); ++k) s.moved_freely[chosen[k]] = !works[k].held;
@@ -146,57 +175,185 @@ void let_sleep(const StepCall& call, Impl& s) {
     call.report.asleep += static_cast<int>(s.sets.sleepers().size());
 }
 
-/// Steps those who may meet, some sets at a time: so few that what is computed of them stays in the cache, so
+/// Steps robots that may meet, some sets of them.
+void step_sets(const StepCall& call, const Unit& unit, std::vector<RobotWork>& works, GroupScratch& group,
+               Impl& s) {
+    const std::span<std::uint32_t> some = s.sets.near().subspan(unit.first, unit.last - unit.first);
+    std::sort(some.begin(), some.end());
+    make_room(works, some.size());
+    if (works.size() < some.size()) works.resize(some.size());
+    step_group(call, some, std::span(works).first(some.size()), group, s);
+}
+
+/// Lists those who may meet, some sets at a time: so few that what is computed of them stays in the cache, so
 /// many that lanes are filled.
-void step_groups(const StepCall& call, Impl& s) {
+void list_sets(const StepCall& call, Impl& s) {
     constexpr std::size_t kTogether = 16;
-    std::size_t first = 0, last = 0;
-    const auto step_some = [&] {
-        const std::span<std::uint32_t> some = s.sets.near().subspan(first, last - first);
-        std::sort(some.begin(), some.end());
-        make_room(s.works, some.size());
-        if (s.works.size() < some.size()) s.works.resize(some.size());
-        first = last;
-        if (!some.empty()) step_group(call, some, std::span(s.works).first(some.size()), s);
+    Unit unit;
+    const auto list = [&] {
+        if (unit.last > unit.first) s.units.push_back(unit);
+        unit.first = unit.last;
     };
     s.sets.for_each_set([&](std::span<const std::uint32_t> set) {
         call.report.largest_group = std::max(call.report.largest_group, static_cast<int>(set.size()));
-        last += set.size();
-        if (last - first >= kTogether) step_some();
+        unit.last += set.size();
+        if (unit.last - unit.first >= kTogether) list();
     });
-    step_some();
+    list();
 }
 
-/// Steps robots of one type that meet nobody in lanes, and those that cannot go so each by itself.
-void step_in_lanes(const StepCall& call, std::vector<std::uint32_t>& batch, Impl& s) {
+/// Steps robots of one type that meet nobody in lanes, and those that cannot go so each by itself. `batch` is
+/// empty afterwards; `kept` a buffer.
+void step_in_lanes(const StepCall& call, std::vector<std::uint32_t>& batch, std::vector<std::uint32_t>& kept,
+                   std::span<RobotWork> alone, GroupScratch& group, Impl& s) {
     const int before = call.report.iterations;
-    s.batch = batch;
+    kept = batch;
     step_batch(
-        s.group.lanes, call.model, batch, call.report, call.clock,
+        group.lanes, call.model, batch, call.report, call.clock,
         [&](std::uint32_t i) {
             return LaneRobot{call.robots[i], call.states[i], &call.bounds[i], false, {}};
         },
         [&](std::uint32_t i, bool stepped) {
             call.report.placed += stepped ? 1 : 0;
-            if (!stepped) step_group(call, {&i, 1}, s.alone, s, true);
+            if (!stepped) step_group(call, {&i, 1}, alone, group, s, true);
         });
-    share_effort(s.batch, call.report.iterations - before, s.efforts);
+    share_effort(kept, call.report.iterations - before, s.efforts);
 }
 
-/// Steps each robot that meets nobody by itself, or with others of its type in lanes.
-void step_lone_robots(const StepCall& call, Impl& s) {
+/// Each robot that meets nobody by itself, in_lanes(batch) with others of its type or alone(i).
+template <class InLanes, class Alone>
+void for_each_lone(const StepCall& call, Impl& s, const InLanes& in_lanes, const Alone& alone) {
     const Model& model = call.model;
-    const auto step_lanes = [&](std::vector<std::uint32_t>& batch) { step_in_lanes(call, batch, s); };
     s.queue.start(model.types.size());
     for (std::uint32_t i = 0; i < call.robots.size(); ++i) {
         if (s.sets.is_near(i)) continue;
         const std::size_t type = model.robots[call.robots[i].index()].type.index();
         if (s.group.lanes && !s.group.keep_reactions && fits_lanes(model.types[type], *call.states[i]))
-            s.queue.add(type, i, s.group.lanes.width(), step_lanes);
+            s.queue.add(type, i, s.group.lanes.width(), in_lanes);
         else
-            step_group(call, {&i, 1}, s.alone, s);
+            alone(i);
     }
-    s.queue.finish(step_lanes);
+    s.queue.finish(in_lanes);
+}
+
+void step_lone_robots(const StepCall& call, Impl& s) {
+    for_each_lone(
+        call, s,
+        [&](std::vector<std::uint32_t>& batch) { step_in_lanes(call, batch, s.batch, s.alone, s.group, s); },
+        [&](std::uint32_t i) {
+            step_group(call, {&i, 1}, s.alone, s.group, s);
+        });
+}
+
+/// Lists them instead.
+void list_lone_robots(const StepCall& call, Impl& s) {
+    constexpr std::size_t kBlock = 16;
+    s.lone.clear();
+    const auto list = [&](Unit::Kind kind, std::size_t first) {
+        if (s.lone.size() > first) s.units.push_back({kind, first, s.lone.size()});
+    };
+    for_each_lone(
+        call, s,
+        [&](std::vector<std::uint32_t>& batch) {
+            const std::size_t first = s.lone.size();
+            s.lone.insert(s.lone.end(), batch.begin(), batch.end());
+            list(Unit::Kind::kLanes, first);
+            batch.clear();
+        },
+        [&](std::uint32_t i) {
+            s.lone.push_back(i);
+            list(Unit::Kind::kAlone, s.lone.size() - 1);
+        });
+    // neighbours that go alone become one unit
+    std::size_t kept = 0;
+    for (const Unit& unit : s.units) {
+        Unit* last = kept > 0 ? &s.units[kept - 1] : nullptr;
+        if (last != nullptr && unit.kind == Unit::Kind::kAlone && last->kind == Unit::Kind::kAlone &&
+            last->last == unit.first && last->last - last->first < kBlock)
+            last->last = unit.last;
+        else
+            s.units[kept++] = unit;
+    }
+    s.units.resize(kept);
+}
+
+void step_unit(const StepCall& call, const Unit& unit, Helper& helper, Impl& s) {
+    if (unit.kind == Unit::Kind::kGroup) return step_sets(call, unit, helper.works, helper.group, s);
+    const std::span robots = std::span(s.lone).subspan(unit.first, unit.last - unit.first);
+    if (unit.kind == Unit::Kind::kAlone) {
+        for (const std::uint32_t i : robots) step_group(call, {&i, 1}, helper.alone, helper.group, s);
+        return;
+    }
+    helper.batch.assign(robots.begin(), robots.end());
+    step_in_lanes(call, helper.batch, helper.kept, helper.alone, helper.group, s);
+}
+
+void prepare_helpers(Impl& s) {
+    while (s.helpers.size() < s.group.team.size()) s.helpers.emplace_back(s.lanes_most);
+    for (Helper& helper : s.helpers) {
+        helper.report = {};
+        helper.group.lanes = {helper.lanes.get(), nullptr};
+        helper.group.profiles_solver = s.group.profiles_solver;
+        // lanes tell what their solver did where the clock is on; the times are not wanted
+        helper.clock = {};
+        if (s.group.profiles_solver)
+            helper.clock.start([] { return std::uint64_t{0}; }, helper.report.profile.stages);
+    }
+}
+
+void add_report(const StepReport& from, StepReport& to) {
+    to.contacts += from.contacts, to.static_contacts += from.static_contacts;
+    to.asleep += from.asleep, to.placed += from.placed;
+    to.add_solves(from);
+    note_failure_of(from, to);
+}
+
+std::size_t weight_of(const StepCall& call, const Unit& unit, Impl& s) {
+    const std::span<const std::uint32_t> robots =
+        unit.kind == Unit::Kind::kGroup ? std::span<const std::uint32_t>(s.sets.near()) : s.lone;
+    std::size_t sum = 0;
+    for (const std::uint32_t i : robots.subspan(unit.first, unit.last - unit.first))
+        sum += weight_of(call.model.type_of(call.robots[i]));
+    return sum;
+}
+
+/// Large groups by all threads of the team, one after the other; then what is small, side by side. No bit
+/// depends on it.
+void step_side_by_side(const StepCall& call, Impl& s) {
+    list_lone_robots(call, s);
+    const auto is_large = [&](const Unit& unit) {
+        return unit.kind != Unit::Kind::kLanes && weight_of(call, unit, s) >= kTeamFrom;
+    };
+    for (const Unit& unit : s.units) {
+        if (!is_large(unit)) continue;
+        if (unit.kind == Unit::Kind::kGroup) {
+            step_sets(call, unit, s.works, s.group, s);
+            continue;
+        }
+        for (std::size_t k = unit.first; k < unit.last; ++k)
+            step_group(call, {&s.lone[k], 1}, s.alone, s.group, s);
+    }
+    std::erase_if(s.units, is_large);
+    call.clock.enter(Stage::kVelocities);  // of all that follows; it is most of it
+    prepare_helpers(s);
+    s.group.team.run(s.units.size(), [&](std::size_t k, std::size_t worker) {
+        Helper& helper = s.helpers[worker];
+        step_unit({call.model, call.tick, call.robots, call.states, call.bounds, call.ordered, helper.report,
+                   helper.clock},
+                  s.units[k], helper, s);
+    });
+    for (const Helper& helper : s.helpers) add_report(helper.report, call.report);
+}
+
+/// Batches of robots that may meet, and of those that meet nobody: step_robots (tick.h).
+void step_batches(const StepCall& call, Impl& s) {
+    s.units.clear();
+    list_sets(call, s);
+    if (s.group.team.size() > 1 && call.robots.size() - s.sets.sleepers().size() >= kTeamFrom &&
+        !s.group.keep_reactions && call.model.precision == Precision::kDouble)
+        return step_side_by_side(call, s);
+    for (const Unit& unit : s.units) step_sets(call, unit, s.works, s.group, s);
+    step_lone_robots(call, s);
 }
 
 /// By robot; groups come in another order.
@@ -233,8 +390,7 @@ StepReport step_island(const Model& model, Tick tick, std::span<const RobotId> r
     s.sets.find({model, robots, states, s.ordered}, s.group.lanes);
     const StepCall call{model, tick, robots, states, bounds, s.ordered, report, s.clock};
     let_sleep(call, s);
-    step_groups(call, s);       // batches of robots that may meet: step_robots (tick.h)
-    step_lone_robots(call, s);  // batches of robots that meet nobody: likewise
+    step_batches(call, s);
     sort_contact_reports(s.group.contact_reports);
     s.clock.stop();
     if (s.group.profiles_solver) report.profile.solver.residual = report.residual;
@@ -242,7 +398,8 @@ StepReport step_island(const Model& model, Tick tick, std::span<const RobotId> r
 }
 
 void StepScratch::use_lanes(std::size_t most) {
-    most = std::min(most, kMostLanes);
+    most = impl_->lanes_most = std::min(most, kMostLanes);
+    impl_->helpers.clear();
     impl_->lanes = make_lane_stepper(Precision::kDouble, most);
     impl_->float_lanes = make_lane_stepper(Precision::kFloat, most);
 }

@@ -72,4 +72,9 @@ void note_not_finite(const RobotWork& work, StepReport& report) {
     note_failure(work.id, false, broken_joint(*work.type, *work.state), report);
 }
 
+void note_failure_of(const StepReport& other, StepReport& report) {
+    if (other.not_finite.valid())
+        note_failure(other.not_finite, other.beyond_numbers, other.not_finite_joint, report);
+}
+
 }  // namespace roboss

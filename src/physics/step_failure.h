@@ -19,5 +19,6 @@ std::optional<int> body_beyond_numbers(const RobotWork& work);
 /// Notes the failure where it is the first of the call (StepReport::not_finite).
 void note_beyond_numbers(const RobotWork& work, int body, StepReport& report);
 void note_not_finite(const RobotWork& work, StepReport& report);
+void note_failure_of(const StepReport& other, StepReport& report);
 
 }  // namespace roboss

@@ -28,7 +28,7 @@ bool BodySolver::displace() {
     residual_ = kernel_.balance(island_);
     for (int round = 0; round < kRoundsMax; ++round) {
         if (round > 0) return_to_start();
-        set_curvatures(island_.points);
+        island_.for_points([&](std::size_t k) { set_curvature(island_.points[k]); });
         for (BodyPoint& p : island_.points) {
             p.d_n = p.f_n = 0;
             if (p.swept_n > 0) push(p);

@@ -7,7 +7,9 @@
 #include <vector>
 
 #include "core/minimum_degree.h"
+#include "core/team.h"
 #include "physics/bodies/body_pairs.h"
+#include "physics/bodies/factor_tasks.h"
 #include "physics/bodies/six.h"
 
 namespace roboss {
@@ -63,6 +65,10 @@ class BodyOrder {
     };
     const std::vector<Update>& updates() const { return updates_; }
     std::size_t edges() const { return elimination_.ends().size(); }
+    /// Number of the pivot that eliminates a body.
+    std::size_t position(int body) const {
+        return static_cast<std::size_t>(elimination_.position()[static_cast<std::size_t>(body)]);
+    }
 
   private:
     bool goes_first(int a, int b) const;
@@ -73,10 +79,50 @@ class BodyOrder {
     std::vector<Update> updates_;
 };
 
+/// By body: the points that it has a share in, in their order. So each body can sum up by itself what its
+/// points do, with the bits of a sum point by point.
+struct PointEnds {
+    struct End {
+        std::uint32_t point = 0;
+        bool is_b = false;
+    };
+    std::vector<End> ends;
+    std::vector<std::uint32_t> first;  // by body, and the end
+
+    void sort(std::size_t bodies, const std::vector<BodyPoint>& points);
+    /// act(point, is_b)
+    template <class Act>
+    void for_each(std::size_t body, const Act& act) const {
+        for (std::uint32_t k = first[body]; k < first[body + 1]; ++k) act(ends[k].point, ends[k].is_b);
+    }
+};
+
 struct BodyIsland {
     std::vector<FreeBody> bodies;
     std::vector<BodyPoint> points;
     BodyOrder order;
+    Team team;  // shares loops and the factor; of one thread if they are not worth it
+    // For a team:
+    PointEnds ends;
+    FactorTasks tasks;
+    std::vector<Six> body_terms;      // of sums over bodies: two of each
+    std::vector<double> point_terms;  // of sums over points
+
+    /// act(body) for all bodies, by the threads of the team; likewise act(point).
+    template <class Act>
+    void for_bodies(const Act& act) const {
+        constexpr std::size_t kBlock = 64;
+        team.run_blocks(bodies.size(), kBlock, [&](std::size_t first, std::size_t last) {
+            for (std::size_t b = first; b < last; ++b) act(b);
+        });
+    }
+    template <class Act>
+    void for_points(const Act& act) const {
+        constexpr std::size_t kBlock = 128;
+        team.run_blocks(points.size(), kBlock, [&](std::size_t first, std::size_t last) {
+            for (std::size_t k = first; k < last; ++k) act(k);
+        });
+    }
     bool symmetric = true;                            // the matrix factored last
     std::vector<SixBlock> kept_diagonal, kept_upper;  // the symmetric matrix, by body and by edge
     std::vector<SixBlock> diagonal, upper, lower;     // its factor; `lower` transposed
@@ -90,8 +136,9 @@ struct BodyIsland {
     PairBatches pairs;
     std::vector<PointSlot> slots;
     std::vector<SixBlock> whitening;  // by body: L^-1 of its mass matrix L L^T, column by column
-    std::vector<Six> swept;           // by body, and one that never moves: L^T v
+    std::vector<Six> swept;           // by body, and two that never move: L^T v
     std::vector<Six> swept_before, swept_direction;  // before the last sweep; search direction
+    std::vector<Eight> slot_terms;                   // for a team: of the squared change, by slot
 };
 
 }  // namespace roboss

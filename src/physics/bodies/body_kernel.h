@@ -29,7 +29,7 @@ class BodyKernel {
     virtual void move(BodyIsland& island, double alpha) const = 0;
     /// The potential's derivative along the step at the present velocities, and `fraction` steps beyond.
     virtual double slope(const BodyIsland& island) const = 0;
-    virtual double slope_beyond(const BodyIsland& island, double fraction) const = 0;
+    virtual double slope_beyond(BodyIsland& island, double fraction) const = 0;
     /// Gauss-Seidel sweeps from the impulses f_n, f_1, f_2; v and swept_n, swept_1, swept_2 are the result.
     virtual SweepReport sweep(BodyIsland& island, const SweepPlan& plan) const = 0;
 };

@@ -10,6 +10,8 @@
 
 #include <support/random.h>
 
+#include "core/thread_pool.h"
+
 namespace roboss {
 namespace {
 
@@ -112,6 +114,22 @@ TEST(BodyKernel, EveryInstructionSetGivesTheSameBits) {
             expect_same(expected, found);
         }
     }
+}
+
+TEST(BodyKernel, ATeamGivesTheBitsOfOneThread) {
+    ThreadPool two(2), five(5);
+    for (const bool coupled : {false, true})
+        for (ThreadPool* pool : {&two, &five}) {
+            Random random(kSeed), again(kSeed);
+            BodyIsland expected = random_island(400, 1000, random), found = random_island(400, 1000, again);
+            found.team = Team(*pool);
+            found.ends.sort(found.bodies.size(), found.points);
+            found.tasks.plan(found.order, pool->threads());
+            EXPECT_GT(found.tasks.count(), 20U);
+            compute(body_kernel(), coupled, expected);
+            compute(body_kernel(), coupled, found);
+            expect_same(expected, found);
+        }
 }
 
 /// (M + J^T D J) x for a step x, D with the rows that are not symmetric.

@@ -5,6 +5,24 @@
 
 namespace roboss {
 
+void PointEnds::sort(std::size_t bodies, const std::vector<BodyPoint>& points) {
+    first.assign(bodies + 1, 0);
+    for (const BodyPoint& p : points) {
+        ++first[static_cast<std::size_t>(p.a)];
+        if (p.b >= 0) ++first[static_cast<std::size_t>(p.b)];
+    }
+    for (std::size_t b = 0, sum = 0; b <= bodies; ++b) {
+        sum += first[b];
+        first[b] = static_cast<std::uint32_t>(sum);
+    }
+    ends.resize(first[bodies]);
+    for (std::size_t k = points.size(); k-- > 0;) {
+        const BodyPoint& p = points[k];
+        if (p.b >= 0) ends[--first[static_cast<std::size_t>(p.b)]] = {static_cast<std::uint32_t>(k), true};
+        ends[--first[static_cast<std::size_t>(p.a)]] = {static_cast<std::uint32_t>(k), false};
+    }
+}
+
 void BodyOrder::analyse(std::size_t bodies, std::vector<BodyPoint>& points) {
     elimination_.begin(bodies);
     for (const BodyPoint& point : points)

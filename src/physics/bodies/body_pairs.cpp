@@ -4,7 +4,10 @@
 #include <algorithm>
 #include <bit>
 #include <cstring>
+#include <numeric>
+#include <span>
 #include <tuple>
+#include <utility>
 
 #include "physics/bodies/body_island.h"
 
@@ -46,14 +49,16 @@ void PairBatches::arrange(std::size_t bodies, const std::vector<BodyPoint>& poin
     fill_batches(points, static_cast<int>(bodies));
 }
 
-void PairBatches::fill_batches(const std::vector<BodyPoint>& points, int unused_body) {
-    batches_.clear();
+void PairBatches::fill_batches(const std::vector<BodyPoint>& points, int bodies) {
+    batches_.clear(), colours_.clear();
     std::size_t slots = 0;
     for (std::size_t k = 0; k < pairs_.size(); ++k) {
         const Pair& pair = pairs_[k];
+        if (k == 0 || pairs_[k - 1].colour != pair.colour) colours_.push_back(batches_.size());
         if (k == 0 || pairs_[k - 1].colour != pair.colour || pairs_[k - 1].scenery != pair.scenery ||
             batches_.back().pairs == 8) {
             PairBatch& batch = batches_.emplace_back();
+            const int unused_body = pair.scenery ? bodies + 1 : bodies;
             std::ranges::fill(batch.a, unused_body), std::ranges::fill(batch.b, unused_body);
             batch.first = slots, batch.last = slots + pair.points;
             batch.scenery = pair.scenery;
@@ -67,15 +72,27 @@ void PairBatches::fill_batches(const std::vector<BodyPoint>& points, int unused_
         for (std::uint32_t i = 0; i < pair.points; ++i)
             places_[pair.first + i] = (batch.first + i) * 8 + lane;
     }
+    colours_.push_back(batches_.size());
+}
+
+void PairBatches::sort_by_bodies() {
+    by_bodies_.resize(batches_.size());
+    std::iota(by_bodies_.begin(), by_bodies_.end(), 0U);
+    for (std::size_t c = 0; c + 1 < colours_.size(); ++c)
+        std::ranges::sort(std::span(by_bodies_).subspan(colours_[c], colours_[c + 1] - colours_[c]), {},
+                          [&](std::uint32_t batch) { return std::pair(batches_[batch].a[0], batch); });
 }
 
 void make_room_for_sweeps(BodyIsland& island) {
     const std::size_t bodies = island.bodies.size();
     island.pairs.arrange(bodies, island.points);
     island.whitening.resize(bodies), island.swept_before.resize(bodies);
-    island.swept.assign(bodies + 1, Six{}), island.swept_direction.assign(bodies, Six{});
+    island.swept.assign(bodies + 2, Six{}), island.swept_direction.assign(bodies, Six{});
     island.slots.resize(island.pairs.slots());
     std::memset(static_cast<void*>(island.slots.data()), 0, island.slots.size() * sizeof(PointSlot));
+    if (island.team.size() == 1) return;
+    island.pairs.sort_by_bodies();
+    island.slot_terms.resize(island.slots.size());
 }
 
 }  // namespace roboss

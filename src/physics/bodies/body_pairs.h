@@ -34,7 +34,8 @@ struct PointSlot {
 };
 
 /// Eight pairs of bodies or fewer. `b` of a pair with scenery, and both of an unused lane, are a body that
-/// never moves: its index is the number of bodies.
+/// never moves: its index is the number of bodies, or one more if the batch is of scenery. So batches of one
+/// colour share no body.
 struct PairBatch {
     int a[8] = {}, b[8] = {};
     int pairs = 0;
@@ -51,6 +52,12 @@ class PairBatches {
     void arrange(std::size_t bodies, const std::vector<BodyPoint>& points);
 
     const std::vector<PairBatch>& batches() const { return batches_; }
+    /// First batch of each colour, and the end.
+    const std::vector<std::size_t>& colours() const { return colours_; }
+    /// The batches of each colour by their first bodies, for a team: who sweeps the pairs of a body in one
+    /// colour mostly does so in the others. After sort_by_bodies().
+    const std::vector<std::uint32_t>& by_bodies() const { return by_bodies_; }
+    void sort_by_bodies();
     std::size_t slots() const { return batches_.empty() ? 0 : batches_.back().last; }
     /// Where a point is: slot * 8 + lane.
     std::size_t place_of(std::size_t point) const { return places_[point]; }
@@ -62,10 +69,12 @@ class PairBatches {
         std::uint32_t first = 0, points = 0;  // in `points`
     };
     std::uint32_t take_colour(int a, int b);
-    void fill_batches(const std::vector<BodyPoint>& points, int unused_body);
+    void fill_batches(const std::vector<BodyPoint>& points, int bodies);
 
     std::vector<Pair> pairs_;
     std::vector<PairBatch> batches_;
+    std::vector<std::size_t> colours_;
+    std::vector<std::uint32_t> by_bodies_;
     std::vector<std::size_t> places_;
     std::vector<std::uint64_t> taken_;    // by body: the lowest 64 colours
     std::vector<std::uint32_t> further_;  // by body: the first free one beyond

@@ -23,6 +23,26 @@ void add_pair(int a, int b, int count, std::vector<BodyPoint>& points) {
     }
 }
 
+/// No two batches of a colour share a body, and the order for teams has each batch of a colour once.
+void expect_colours_apart(int bodies, PairBatches& pairs) {
+    pairs.sort_by_bodies();
+    ASSERT_EQ(pairs.colours().back(), pairs.batches().size());
+    for (std::size_t c = 0; c + 1 < pairs.colours().size(); ++c) {
+        std::set<int> there;
+        std::set<std::uint32_t> listed;
+        for (std::size_t k = pairs.colours()[c]; k < pairs.colours()[c + 1]; ++k) {
+            listed.insert(pairs.by_bodies()[k]);
+            const PairBatch& batch = pairs.batches()[k];
+            for (std::size_t lane = 0; lane < 8; ++lane)
+                for (const int body : {batch.a[lane], batch.b[lane]})
+                    EXPECT_TRUE(body >= bodies || there.insert(body).second) << body << " in colour " << c;
+        }
+        EXPECT_EQ(listed.size(), pairs.colours()[c + 1] - pairs.colours()[c]);
+        EXPECT_EQ(*listed.begin(), pairs.colours()[c]);
+        EXPECT_EQ(*listed.rbegin() + 1, pairs.colours()[c + 1]);
+    }
+}
+
 void expect_sound(int bodies, const std::vector<BodyPoint>& points) {
     PairBatches pairs;
     pairs.arrange(static_cast<std::size_t>(bodies), points);
@@ -35,18 +55,19 @@ void expect_sound(int bodies, const std::vector<BodyPoint>& points) {
         std::set<int> there;
         for (std::size_t lane = 0; lane < 8; ++lane)
             for (const int body : {batch.a[lane], batch.b[lane]}) {
-                if (body == bodies) continue;
+                if (body == bodies + (batch.scenery ? 1 : 0)) continue;
                 EXPECT_TRUE(there.insert(body).second) << body << " twice";
             }
         for (std::size_t k = 0; k < points.size(); ++k) {
             const std::size_t slot = pairs.place_of(k) / 8, lane = pairs.place_of(k) % 8;
             if (slot < batch.first || slot >= batch.last) continue;
             EXPECT_EQ(batch.a[lane], points[k].a);
-            EXPECT_EQ(batch.b[lane], points[k].b < 0 ? bodies : points[k].b);
+            EXPECT_EQ(batch.b[lane], points[k].b < 0 ? bodies + 1 : points[k].b);
             EXPECT_EQ(batch.scenery, points[k].b < 0);
         }
     }
     EXPECT_EQ(pairs.slots(), slots);
+    expect_colours_apart(bodies, pairs);
 }
 
 TEST(PairBatches, NoBodyIsTwiceInABatch) {

@@ -9,19 +9,17 @@
 
 namespace roboss {
 
-/// Curvatures of the contacts at the present velocities.
-inline void set_curvatures(std::vector<BodyPoint>& points) {
-    for (BodyPoint& p : points) {
-        p.d_n = p.target_n > p.u_n ? p.stiffness_n : 0;
-        p.d_1n = p.d_2n = p.d_11 = p.d_12 = p.d_22 = 0;
-        if (!(p.bound > 0)) continue;
-        const double speed = std::sqrt(p.u_1 * p.u_1 + p.u_2 * p.u_2);
-        if (speed * p.stiffness_t > p.bound) {
-            const double e1 = p.u_1 / speed, e2 = p.u_2 / speed, share = p.bound / speed;
-            p.d_11 = share * (1 - e1 * e1), p.d_12 = -share * e1 * e2, p.d_22 = share * (1 - e2 * e2);
-        } else {
-            p.d_11 = p.d_22 = p.stiffness_t;
-        }
+/// Curvatures of a contact at the present velocities.
+inline void set_curvature(BodyPoint& p) {
+    p.d_n = p.target_n > p.u_n ? p.stiffness_n : 0;
+    p.d_1n = p.d_2n = p.d_11 = p.d_12 = p.d_22 = 0;
+    if (!(p.bound > 0)) return;
+    const double speed = std::sqrt(p.u_1 * p.u_1 + p.u_2 * p.u_2);
+    if (speed * p.stiffness_t > p.bound) {
+        const double e1 = p.u_1 / speed, e2 = p.u_2 / speed, share = p.bound / speed;
+        p.d_11 = share * (1 - e1 * e1), p.d_12 = -share * e1 * e2, p.d_22 = share * (1 - e2 * e2);
+    } else {
+        p.d_11 = p.d_22 = p.stiffness_t;
     }
 }
 

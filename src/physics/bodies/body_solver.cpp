@@ -29,8 +29,9 @@ int most_sweeps(std::size_t bodies) {
 
 }  // namespace
 
-bool BodySolver::solve(const BodyPart& part, std::vector<double>& v, SolveReport& report) {
+bool BodySolver::solve(const BodyPart& part, std::vector<double>& v, SolveReport& report, const Team& team) {
     const Accuracy& accuracy = part.problem.accuracy;
+    island_.team = team;
     position_ = part.problem.position;
     iterations_ = 0, swept_ = false;
     take(part, v);
@@ -83,13 +84,14 @@ void BodySolver::take(const BodyPart& part, const std::vector<double>& v) {
     BodyIsland& s = island_;
     s.bodies.resize(part.members.size()), s.points.resize(part.contacts.size());
     local_.resize(problem.robots.size());
-    for (std::size_t b = 0; b < s.bodies.size(); ++b) {
+    s.for_bodies([&](std::size_t b) {
         const std::uint32_t robot = part.members[b];
         local_[robot] = static_cast<std::uint32_t>(b);
         take_body(*problem.robots[robot], v.data() + problem.offsets[robot], s.bodies[b]);
-    }
-    for (std::size_t c = 0; c < s.points.size(); ++c)
-        take_point(part, problem.rows.contacts[part.contacts[c]], s.points[c]);
+    });
+    s.for_points(
+        [&](std::size_t c) { take_point(part, problem.rows.contacts[part.contacts[c]], s.points[c]); });
+    if (s.team.size() > 1) s.ends.sort(s.bodies.size(), s.points);
     kernel_.take_velocities(s);
 }
 
@@ -97,6 +99,7 @@ void BodySolver::take(const BodyPart& part, const std::vector<double>& v) {
 void BodySolver::prepare_factor() {
     BodyIsland& s = island_;
     s.order.analyse(s.bodies.size(), s.points);
+    if (s.team.size() > 1) s.tasks.plan(s.order, s.team.size());
     s.kept_diagonal.resize(s.bodies.size()), s.diagonal.resize(s.bodies.size());
     s.pivot_factors.resize(s.bodies.size());
     for (std::size_t b = 0; b < s.bodies.size(); ++b) s.kept_diagonal[b] = s.bodies[b].mass;
@@ -226,7 +229,7 @@ bool BodySolver::keeps_apart() const {
 /// A first step to where the bodies would be if every contact did what the sweeps say. False if that is no
 /// better than where the solve began, where we then are.
 bool BodySolver::start_from_sweeps() {
-    set_curvatures(island_.points);
+    island_.for_points([&](std::size_t k) { set_curvature(island_.points[k]); });
     for (BodyPoint& p : island_.points) {
         p.d_n = p.f_n = 0;
         if (p.swept_n > 0) push(p);
@@ -246,7 +249,7 @@ bool BodySolver::start_from_sweeps() {
 void BodySolver::start_from_sticking() {
     if (std::ranges::none_of(island_.points, &BodyPoint::sticks)) return;
     keep_start();
-    set_curvatures(island_.points);
+    island_.for_points([&](std::size_t k) { set_curvature(island_.points[k]); });
     for (BodyPoint& p : island_.points)
         if (p.sticks) push(p), stick(p);
     take_first_step();
@@ -259,8 +262,10 @@ void BodySolver::start() {
 
 /// Balance with friction bounds that fit the normal impulses.
 double BodySolver::balance_tied() {
-    for (BodyPoint& p : island_.points)
+    island_.for_points([&](std::size_t k) {
+        BodyPoint& p = island_.points[k];
         p.bound = p.coefficient * std::max(0.0, (p.target_n - p.u_n) * p.stiffness_n);
+    });
     return kernel_.balance(island_);
 }
 
@@ -271,7 +276,7 @@ bool BodySolver::solve_coupled(const Accuracy& accuracy) {
     keep_start();
     residual_ = balance_tied();
     for (int i = 0; i < kStepsMax && residual_ > accuracy.tolerance; ++i) {
-        set_curvatures(island_.points);
+        island_.for_points([&](std::size_t k) { set_curvature(island_.points[k]); });
         const bool slides = couple_bounds(island_.points);
         if (!kernel_.find_step(island_, slides, newton::may_lack(residual_))) break;
         ++iterations_;
@@ -382,7 +387,7 @@ bool BodySolver::iterate(const Accuracy& accuracy) {
         }
         if (i >= kPatience * accuracy.newton_max) return residual_ <= newton::kRoughly && settled;
         if (!std::isfinite(residual_)) return false;
-        set_curvatures(island_.points);
+        island_.for_points([&](std::size_t k) { set_curvature(island_.points[k]); });
         if (!kernel_.find_step(island_, false, newton::may_lack(residual_))) return false;
         take_step();
         ++iterations_;
@@ -392,9 +397,10 @@ bool BodySolver::iterate(const Accuracy& accuracy) {
 /// Velocities and rows, as IslandSolver leaves them.
 void BodySolver::give(const BodyPart& part, std::vector<double>& v) const {
     const IslandSolver::Problem& problem = part.problem;
-    for (std::size_t b = 0; b < part.members.size(); ++b)
+    island_.for_bodies([&](std::size_t b) {
         std::copy_n(island_.bodies[b].v.x, 6, v.data() + problem.offsets[part.members[b]]);
-    for (std::size_t c = 0; c < part.contacts.size(); ++c) {
+    });
+    island_.for_points([&](std::size_t c) {
         const BodyPoint& p = island_.points[c];
         ContactRow& row = problem.rows.contacts[part.contacts[c]];
         row.normal.target = p.target_n, row.normal.stiffness = p.stiffness_n;
@@ -402,7 +408,7 @@ void BodySolver::give(const BodyPart& part, std::vector<double>& v) const {
         row.slip.stiffness = p.stiffness_t, row.slip.bound = p.bound;
         row.slip.u_1 = p.u_1, row.slip.u_2 = p.u_2;
         row.slip.impulse_1 = p.f_1, row.slip.impulse_2 = p.f_2;
-    }
+    });
 }
 
 }  // namespace roboss

@@ -33,9 +33,12 @@ class BodySolver {
         return row.first != row.last && !slip_disc::slips(row.slip);
     }
 
+    /// Bodies of a part from which on a team is worth its pauses.
+    static constexpr std::size_t kWorthATeam = 768;
+
     /// As IslandSolver::solve, for the part. False if it does not come to a balance: then velocities and rows
-    /// are as before, and the report says how many iterations were tried.
-    bool solve(const BodyPart& part, std::vector<double>& v, SolveReport& report);
+    /// are as before, and the report says how many iterations were tried. The team's threads share the work.
+    bool solve(const BodyPart& part, std::vector<double>& v, SolveReport& report, const Team& team = {});
 
   private:
     void take(const BodyPart& part, const std::vector<double>& v);

@@ -101,6 +101,12 @@ const Mat3& friction_axes(const RobotWork& robot, std::uint32_t shape) {
     return body < 0 ? robot.shapes[shape].X_WS.R : robot.bodies[static_cast<std::size_t>(body)].X_WB.R;
 }
 
+/// Of the robot or one behind it.
+std::size_t first_contact(std::size_t robot, std::span<const Contact> contacts) {
+    const auto at = std::ranges::lower_bound(contacts, static_cast<int>(robot), {}, &Contact::robot_a);
+    return static_cast<std::size_t>(at - contacts.begin());
+}
+
 }  // namespace
 
 ContactFinder::ContactFinder()
@@ -165,22 +171,27 @@ void ContactFinder::find_together(const Model& model, std::span<RobotWork> robot
         blocks_[block].clear();
         helpers_[worker].find_of(model, robots, {first, pairs_.end()}, begin, end, blocks_[block]);
     });
-    for (std::size_t block = 0; block < blocks; ++block) {
-        make_room(contacts, contacts.size() + blocks_[block].size());
-        contacts.insert(contacts.end(), blocks_[block].begin(), blocks_[block].end());
-    }
+    places_.assign(1, 0);
+    for (std::size_t block = 0; block < blocks; ++block)
+        places_.push_back(places_.back() + static_cast<std::uint32_t>(blocks_[block].size()));
+    make_room(contacts, places_.back());
+    contacts.resize(places_.back());
+    team.run(blocks, [&](std::size_t block, std::size_t) {
+        std::ranges::copy(blocks_[block], contacts.begin() + places_[block]);
+    });
     for (const ContactFinder& helper : helpers_)
         near_misses_.insert(near_misses_.end(), helper.near_misses_.begin(), helper.near_misses_.end());
 }
 
 void ContactFinder::find(const Model& model, std::span<RobotWork> robots, const BondKeeper* bonds,
                          bool keep_reactions, std::vector<Contact>& contacts, const Team& team) {
-    contacts.clear();
     start(robots.size(), bonds, keep_reactions);
-    if (team.size() > 1)
+    if (team.size() > 1) {
         find_together(model, robots, keep_reactions, contacts, team);
-    else
+    } else {
+        contacts.clear();
         find_of(model, robots, pairs_, 0, robots.size(), contacts);
+    }
     bonds_ = nullptr;
     defer_later(model, robots, contacts);
     std::ranges::sort(near_misses_);
@@ -430,9 +441,10 @@ void ContactFinder::sort_pairs(std::size_t robots) {
     }
 }
 
-void recall_impulses(std::span<RobotWork> robots, std::span<Contact> contacts) {
-    std::size_t c = 0;
-    for (std::size_t a = 0; a < robots.size(); ++a) {
+void recall_impulses(std::span<RobotWork> robots, std::size_t first, std::size_t last,
+                     std::span<Contact> contacts) {
+    std::size_t c = first_contact(first, contacts);
+    for (std::size_t a = first; a < last; ++a) {
         const std::vector<ContactMemory>& memory = robots[a].state->contacts;
         auto m = memory.begin();
         for (; c < contacts.size() && contacts[c].robot_a == static_cast<int>(a); ++c) {
@@ -451,10 +463,12 @@ void recall_impulses(std::span<RobotWork> robots, std::span<Contact> contacts) {
     }
 }
 
-void remember_impulses(std::span<RobotWork> robots, std::span<const Contact> contacts) {
-    for (RobotWork& work : robots)
+void remember_impulses(std::span<RobotWork> robots, std::size_t first, std::size_t last,
+                       std::span<const Contact> contacts) {
+    for (const RobotWork& work : robots.subspan(first, last - first))
         if (!work.asleep) work.state->contacts.clear();
-    for (const Contact& c : contacts) {
+    for (std::size_t i = first_contact(first, contacts), end = first_contact(last, contacts); i < end; ++i) {
+        const Contact& c = contacts[i];
         if (c.impulse <= 0) continue;
         robots[static_cast<std::size_t>(c.robot_a)].state->contacts.push_back(
             {other_id(robots, c), c.shape_a, c.shape_b, c.feature, c.impulse, c.load, c.friction});

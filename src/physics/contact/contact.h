@@ -147,8 +147,10 @@ class ContactFinder {
 };
 
 /// Takes the remembered impulses of the last tick from the owners' states into the contacts, and writes the
-/// solved back.
-void recall_impulses(std::span<RobotWork> robots, std::span<Contact> contacts);
-void remember_impulses(std::span<RobotWork> robots, std::span<const Contact> contacts);
+/// solved back, for the robots first .. last-1.
+void recall_impulses(std::span<RobotWork> robots, std::size_t first, std::size_t last,
+                     std::span<Contact> contacts);
+void remember_impulses(std::span<RobotWork> robots, std::size_t first, std::size_t last,
+                       std::span<const Contact> contacts);
 
 }  // namespace roboss

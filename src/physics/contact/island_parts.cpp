@@ -8,6 +8,7 @@
 #include "core/check.h"
 #include "physics/contact/friction_bounds.h"
 #include "physics/solver/row_math.h"
+#include "physics/step.h"
 
 namespace roboss {
 namespace {
@@ -52,7 +53,7 @@ SolveReport IslandParts::solve(Problem p, std::vector<double>& v, const Team& te
     largest_part_ = 0;
     for (int round = 0;; ++round) {
         sort_by_parts(p);
-        list_changed(team);
+        list_changed(p, team);
         p.again = round > 0;
         solve_changed(p, team, v, report);
         std::ranges::fill(changed_, 0);
@@ -84,15 +85,39 @@ void IslandParts::profile_friction(const Problem& p, SolverProfile& profile) con
     }
 }
 
-void IslandParts::list_changed(const Team& team) {
-    to_solve_.clear();
-    for (std::uint32_t part = 0; part + 1 < robots_.first.size(); ++part)
-        if (std::ranges::any_of(robots_.of(part), [&](std::uint32_t r) { return changed_[r] != 0; }))
-            to_solve_.push_back(part);
+/// Lists the parts that are to be solved. For a team: first those that all its threads solve together, which
+/// are more than a thread's share; then the others, sorted within the share of each thread.
+void IslandParts::list_changed(const Problem& p, const Team& team) {
+    to_solve_.clear(), together_ = 0;
+    std::size_t all = 0;
+    for (std::uint32_t part = 0; part + 1 < robots_.first.size(); ++part) {
+        if (std::ranges::none_of(robots_.of(part), [&](std::uint32_t r) { return changed_[r] != 0; }))
+            continue;
+        to_solve_.push_back(part);
+        all += robots_.of(part).size();
+    }
     if (team.size() == 1) return;
-    std::ranges::sort(to_solve_, [&](std::uint32_t a, std::uint32_t b) {
-        return std::pair(robots_.of(b).size(), a) < std::pair(robots_.of(a).size(), b);
-    });
+    const auto size = [&](std::uint32_t part) { return robots_.of(part).size(); };
+    const auto net = [&](std::uint32_t part) {  // bodies of robots with many loops
+        std::size_t sum = 0;
+        for (const std::uint32_t r : robots_.of(part))
+            if (!p.robots[r]->type->elimination.empty()) sum += weight_of(*p.robots[r]->type);
+        return sum;
+    };
+    const auto is_large = [&](std::uint32_t part) {
+        return net(part) >= kTeamFrom ||
+               (size(part) >= BodySolver::kWorthATeam && 2 * size(part) * team.size() > all);
+    };
+    const auto others = std::ranges::partition(to_solve_, is_large);
+    together_ = to_solve_.size() - others.size();
+    std::ranges::sort(others);
+    for (std::size_t worker = 0; worker < team.size(); ++worker) {
+        const std::size_t begin = team.first_of(others.size(), worker),
+                          end = team.first_of(others.size(), worker + 1);
+        std::ranges::sort(
+            std::span(others).subspan(begin, end - begin),
+            [&](std::uint32_t a, std::uint32_t b) { return std::pair(size(b), a) < std::pair(size(a), b); });
+    }
 }
 
 /// Each part has rows and velocities of its own, so they may be solved side by side.
@@ -100,10 +125,12 @@ void IslandParts::solve_changed(const Problem& p, const Team& team, std::vector<
                                 SolveReport& report) {
     if (solvers_.size() < team.size()) solvers_.resize(team.size());
     reports_.resize(to_solve_.size());
-    for (PartSolver& solver : solvers_) solver.islands.share_with({});
-    if (to_solve_.size() == 1) solvers_[0].islands.share_with(team);
-    team.run(to_solve_.size(), [&](std::size_t k, std::size_t worker) {
-        reports_[k] = solve_part(p, to_solve_[k], solvers_[worker], v);
+    solvers_[0].islands.share_with(team);
+    for (std::size_t k = 0; k < together_; ++k)
+        reports_[k] = solve_part(p, to_solve_[k], solvers_[0], v, team);
+    solvers_[0].islands.share_with({});
+    team.run(to_solve_.size() - together_, [&](std::size_t k, std::size_t worker) {
+        reports_[together_ + k] = solve_part(p, to_solve_[together_ + k], solvers_[worker], v, {});
     });
     for (std::size_t k = 0; k < to_solve_.size(); ++k) {
         report.iterations += reports_[k].iterations;
@@ -112,11 +139,11 @@ void IslandParts::solve_changed(const Problem& p, const Team& team, std::vector<
     }
 }
 
-SolveReport IslandParts::solve_part(const Problem& p, std::size_t part, PartSolver& s,
-                                    std::vector<double>& v) const {
+SolveReport IslandParts::solve_part(const Problem& p, std::size_t part, PartSolver& s, std::vector<double>& v,
+                                    const Team& team) const {
     SolveReport tried;
     if (is_of_bodies(p, part) &&
-        s.bodies.solve({p, robots_.of(part), contacts_.of(part), robot_of_}, v, tried))
+        s.bodies.solve({p, robots_.of(part), contacts_.of(part), robot_of_}, v, tried, team))
         return tried;
     SolveReport report;
     if (robots_.of(part).size() == p.robots.size()) {

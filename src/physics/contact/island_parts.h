@@ -65,9 +65,10 @@ class IslandParts {
     void join_all();
     void sort_by_parts(const Problem& p);
     static bool has_parts(const Problem& p);
-    void list_changed(const Team& team);
+    void list_changed(const Problem& p, const Team& team);
     void solve_changed(const Problem& p, const Team& team, std::vector<double>& v, SolveReport& report);
-    SolveReport solve_part(const Problem& p, std::size_t part, PartSolver& s, std::vector<double>& v) const;
+    SolveReport solve_part(const Problem& p, std::size_t part, PartSolver& s, std::vector<double>& v,
+                           const Team& team) const;
     bool is_of_bodies(const Problem& p, std::size_t part) const;
     void take_part(const Problem& p, std::size_t part, const std::vector<double>& v, PartSolver& s) const;
     void take_columns(const Problem& p, PartSolver& s, std::size_t& first, std::size_t& last) const;
@@ -86,7 +87,8 @@ class IslandParts {
     std::vector<char> changed_;               // by robot: a contact joined it since it was solved
     ByPart robots_, couplings_, contacts_, angulars_;
     std::vector<std::uint32_t> keys_;
-    std::vector<std::uint32_t> to_solve_;  // parts; for a team the largest first
+    std::vector<std::uint32_t> to_solve_;  // parts
+    std::size_t together_ = 0;             // of these, the first: a team solves one after the other
     std::vector<SolveReport> reports_;     // of these
     std::vector<PartSolver> solvers_ = std::vector<PartSolver>(1);
 };

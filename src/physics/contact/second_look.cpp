@@ -15,6 +15,12 @@ NearMiss pair_of(const Contact& c) {
     return {c.robot_a, c.robot_b, c.shape_a, c.shape_b};
 }
 
+/// Those of which the robot is the first, of contacts in the order of their first robots.
+std::span<const Contact* const> contacts_of(std::uint32_t robot, std::span<const Contact* const> contacts) {
+    const auto own = std::ranges::equal_range(contacts, static_cast<int>(robot), {}, &Contact::robot_a);
+    return {own.begin(), own.end()};
+}
+
 bool is_plane(const Model& model, const Contact& c) {
     return c.robot_b < 0 && model.statics[c.shape_b].shape.kind == ShapeKind::kPlane;
 }
@@ -166,6 +172,7 @@ void SecondLook::find_struck(const SolvedIsland& island, std::uint32_t robot) {
     const RobotWork& work = island.robots[robot];
     const Model& model = island.model;
     const Mechanics<double>& to = moved(island, static_cast<int>(robot));
+    const std::span<const Contact* const> own = contacts_of(robot, island.contacts);
     for (std::size_t s = 0; s < work.shapes.size(); ++s) {
         const BodyShape& shape = work.type->shapes[s];
         if (shape.body < 0) continue;
@@ -177,7 +184,7 @@ void SecondLook::find_struck(const SolvedIsland& island, std::uint32_t robot) {
             const NearMiss pair{static_cast<int>(robot), -1, static_cast<std::uint32_t>(s), i};
             const bool is_known =
                 std::ranges::binary_search(island.near_misses, pair) ||
-                std::ranges::any_of(island.contacts, [&](const Contact* c) { return pair_of(*c) == pair; });
+                std::ranges::any_of(own, [&](const Contact* c) { return pair_of(*c) == pair; });
             if (is_known || scenery.shape.kind == ShapeKind::kPlane) continue;
             if (may_collide(shape.material, scenery.material)) find_missed(island, pair);
         }

@@ -42,37 +42,48 @@ struct Directions {
 class LaneBodies final : public BodyKernel {
   public:
     void take_velocities(BodyIsland& s) const override {
-        for (FreeBody& body : s.bodies) {
+        s.for_bodies([&](std::size_t b) {
+            FreeBody& body = s.bodies[b];
             body.step = body.v;
             store(times(body.mass, body.v), body.mv);
-        }
-        set_steps(s);
-        for (BodyPoint& p : s.points)
+        });
+        s.for_points([&](std::size_t k) {
+            BodyPoint& p = s.points[k];
+            set_step(s, p);
             p.u_n = p.du_n, p.u_1 = p.du_1 - p.target_1, p.u_2 = p.du_2 - p.target_2;
+        });
     }
 
     double balance(BodyIsland& s) const override {
-        for (BodyPoint& p : s.points) {
+        s.for_points([&](std::size_t k) {
+            BodyPoint& p = s.points[k];
             const Impulses f = impulses_at(p, p.u_n, p.u_1, p.u_2);
             p.f_n = f.n, p.f_1 = f.t1, p.f_2 = f.t2;
-        }
+        });
         return set_gradient(s);
     }
 
     double set_gradient(BodyIsland& s) const override {
-        FreeBody* bodies = s.bodies.data();
-        for (FreeBody& body : s.bodies) body.applied = {};
-        for (const BodyPoint& p : s.points) {
-            apply(p.n_a, p.t1_a, p.t2_a, p, bodies[p.a].applied);
-            if (p.b >= 0) apply(p.n_b, p.t1_b, p.t2_b, p, bodies[p.b].applied);
-        }
         Row errors = zero(), scales = zero();
-        for (FreeBody& body : s.bodies) {
-            const Row mv = load(body.mv), free = load(body.impulse), applied = load(body.applied),
-                      lightness = load(body.lightness), g = mv - free - applied;
-            store(g, body.gradient);
-            errors = errors + g * g * lightness;
-            scales = scales + (mv * mv + free * free + applied * applied) * lightness;
+        if (s.team.size() == 1) {
+            FreeBody* bodies = s.bodies.data();
+            for (FreeBody& body : s.bodies) body.applied = {};
+            for (const BodyPoint& p : s.points) {
+                apply(p.n_a, p.t1_a, p.t2_a, p, bodies[p.a].applied);
+                if (p.b >= 0) apply(p.n_b, p.t1_b, p.t2_b, p, bodies[p.b].applied);
+            }
+            for (FreeBody& body : s.bodies) {
+                Row error, scale;
+                set_gradient(body, error, scale);
+                errors = errors + error, scales = scales + scale;
+            }
+        } else {
+            s.body_terms.resize(2 * s.bodies.size());
+            s.for_bodies([&](std::size_t b) { set_own_gradient(s, b); });
+            for (std::size_t b = 0; b < s.bodies.size(); ++b) {
+                errors = errors + load(s.body_terms[2 * b]);
+                scales = scales + load(s.body_terms[2 * b + 1]);
+            }
         }
         const double error = total(errors), scale = total(scales);
         return scale > 0 ? std::sqrt(error / scale) : error;
@@ -80,22 +91,26 @@ class LaneBodies final : public BodyKernel {
 
     bool find_step(BodyIsland& s, bool coupled, double lack) const override {
         assemble(s, coupled, lack);
-        if (!factor(s)) return false;
+        if (!(s.team.size() == 1 ? factor(s) : factor_together(s))) return false;
         for (FreeBody& body : s.bodies) store(-1.0 * load(body.gradient), body.step);
         solve(s);
-        for (FreeBody& body : s.bodies) store(times(body.mass, body.step), body.m_step);
-        set_steps(s);
+        s.for_bodies(
+            [&](std::size_t b) { store(times(s.bodies[b].mass, s.bodies[b].step), s.bodies[b].m_step); });
+        s.for_points([&](std::size_t k) { set_step(s, s.points[k]); });
         return true;
     }
 
     void move(BodyIsland& s, double alpha) const override {
-        for (FreeBody& body : s.bodies) {
+        s.for_bodies([&](std::size_t b) {
+            FreeBody& body = s.bodies[b];
             Row v = load(body.v), mv = load(body.mv);
             add(v, alpha, load(body.step)), add(mv, alpha, load(body.m_step));
             store(v, body.v), store(mv, body.mv);
-        }
-        for (BodyPoint& p : s.points)
+        });
+        s.for_points([&](std::size_t k) {
+            BodyPoint& p = s.points[k];
             p.u_n += alpha * p.du_n, p.u_1 += alpha * p.du_1, p.u_2 += alpha * p.du_2;
+        });
     }
 
     double slope(const BodyIsland& s) const override {
@@ -104,7 +119,7 @@ class LaneBodies final : public BodyKernel {
         return total(sum);
     }
 
-    double slope_beyond(const BodyIsland& s, double fraction) const override {
+    double slope_beyond(BodyIsland& s, double fraction) const override {
         Row sum = zero();
         for (const FreeBody& body : s.bodies) {
             Row g = load(body.mv);
@@ -112,11 +127,13 @@ class LaneBodies final : public BodyKernel {
             sum = sum + load(body.step) * (g - load(body.impulse));
         }
         double slope = total(sum);
-        for (const BodyPoint& p : s.points) {
-            const Impulses f = impulses_at(p, p.u_n + fraction * p.du_n, p.u_1 + fraction * p.du_1,
-                                           p.u_2 + fraction * p.du_2);
-            slope -= f.n * p.du_n + f.t1 * p.du_1 + f.t2 * p.du_2;
+        if (s.team.size() == 1) {
+            for (const BodyPoint& p : s.points) slope -= slope_of(p, fraction);
+            return slope;
         }
+        s.point_terms.resize(s.points.size());
+        s.for_points([&](std::size_t k) { s.point_terms[k] = slope_of(s.points[k], fraction); });
+        for (const double term : s.point_terms) slope -= term;
         return slope;
     }
 
@@ -131,54 +148,129 @@ class LaneBodies final : public BodyKernel {
         store(sum, applied);
     }
 
-    /// Velocities along the points per step of the bodies.
-    static void set_steps(BodyIsland& s) {
+    /// Sets a body's gradient; what it adds to the sums of the balance.
+    [[gnu::always_inline]] static void set_gradient(FreeBody& body, Row& error, Row& scale) {
+        const Row mv = load(body.mv), free = load(body.impulse), applied = load(body.applied),
+                  lightness = load(body.lightness), g = mv - free - applied;
+        store(g, body.gradient);
+        error = g * g * lightness;
+        scale = (mv * mv + free * free + applied * applied) * lightness;
+    }
+
+    /// Likewise, and before it sums the impulses of its points.
+    static void set_own_gradient(BodyIsland& s, std::size_t b) {
+        FreeBody& body = s.bodies[b];
+        body.applied = {};
+        s.ends.for_each(b, [&](std::size_t k, bool is_b) {
+            const BodyPoint& p = s.points[k];
+            if (is_b)
+                apply(p.n_b, p.t1_b, p.t2_b, p, body.applied);
+            else
+                apply(p.n_a, p.t1_a, p.t2_a, p, body.applied);
+        });
+        Row error, scale;
+        set_gradient(body, error, scale);
+        store(error, s.body_terms[2 * b]), store(scale, s.body_terms[2 * b + 1]);
+    }
+
+    /// What a point takes from the potential's derivative along the step, `fraction` steps beyond.
+    [[gnu::always_inline]] static double slope_of(const BodyPoint& p, double fraction) {
+        const Impulses f =
+            impulses_at(p, p.u_n + fraction * p.du_n, p.u_1 + fraction * p.du_1, p.u_2 + fraction * p.du_2);
+        return f.n * p.du_n + f.t1 * p.du_1 + f.t2 * p.du_2;
+    }
+
+    /// Velocities along a point per step of its bodies.
+    [[gnu::always_inline]] static void set_step(const BodyIsland& s, BodyPoint& p) {
         const FreeBody* bodies = s.bodies.data();
-        for (BodyPoint& p : s.points) {
-            const Row a = load(bodies[p.a].step);
-            Row n = load(p.n_a) * a, t1 = load(p.t1_a) * a, t2 = load(p.t2_a) * a;
-            if (p.b >= 0) {
-                const Row b = load(bodies[p.b].step);
-                n = n + load(p.n_b) * b, t1 = t1 + load(p.t1_b) * b, t2 = t2 + load(p.t2_b) * b;
-            }
-            p.du_n = total(n), p.du_1 = total(t1), p.du_2 = total(t2);
+        const Row a = load(bodies[p.a].step);
+        Row n = load(p.n_a) * a, t1 = load(p.t1_a) * a, t2 = load(p.t2_a) * a;
+        if (p.b >= 0) {
+            const Row b = load(bodies[p.b].step);
+            n = n + load(p.n_b) * b, t1 = t1 + load(p.t1_b) * b, t2 = t2 + load(p.t2_b) * b;
         }
+        p.du_n = total(n), p.du_1 = total(t1), p.du_2 = total(t2);
+    }
+
+    [[gnu::always_inline]] static bool has_changed(const BodyPoint& p, double lack) {
+        const double change =
+            std::fabs(p.d_11 - p.held_11) + std::fabs(p.d_12 - p.held_12) + std::fabs(p.d_22 - p.held_22);
+        return p.d_n != p.held_n || change > lack * std::max(p.held_11, p.held_22);
+    }
+    [[gnu::always_inline]] static void hold(BodyPoint& p) {
+        p.held_n = p.d_n, p.held_11 = p.d_11, p.held_12 = p.d_12, p.held_22 = p.d_22;
     }
 
     /// Takes the points' curvatures into the kept matrix, as far as they changed, and copies it.
     static void assemble(BodyIsland& s, bool coupled, double lack) {
-        for (BodyPoint& p : s.points) {
-            const double change =
-                std::fabs(p.d_11 - p.held_11) + std::fabs(p.d_12 - p.held_12) + std::fabs(p.d_22 - p.held_22);
-            if (p.d_n != p.held_n || change > lack * std::max(p.held_11, p.held_22)) add_point(s, p);
-        }
-        std::copy(s.kept_diagonal.begin(), s.kept_diagonal.end(), s.diagonal.begin());
-        std::copy(s.kept_upper.begin(), s.kept_upper.end(), s.upper.begin());
         s.symmetric = !coupled;
-        if (s.symmetric) return;
-        std::copy(s.kept_upper.begin(), s.kept_upper.end(), s.lower.begin());
+        if (s.team.size() > 1) {
+            assemble_together(s, lack);
+        } else {
+            for (BodyPoint& p : s.points) {
+                if (!has_changed(p, lack)) continue;
+                add_own(s, p, false);
+                if (p.b >= 0) add_own(s, p, true), add_between(s, p);
+                hold(p);
+            }
+            std::copy(s.kept_diagonal.begin(), s.kept_diagonal.end(), s.diagonal.begin());
+            std::copy(s.kept_upper.begin(), s.kept_upper.end(), s.upper.begin());
+            if (coupled) std::copy(s.kept_upper.begin(), s.kept_upper.end(), s.lower.begin());
+        }
+        if (!coupled) return;
         for (const BodyPoint& p : s.points)
             if (p.d_1n != 0 || p.d_2n != 0) add_slide(s, p);
     }
 
-    static void add_point(BodyIsland& s, BodyPoint& p) {
+    /// Likewise body by body; what is between two bodies comes with that of the lower number.
+    static void assemble_together(BodyIsland& s, double lack) {
+        s.for_bodies([&](std::size_t b) {
+            s.ends.for_each(b, [&](std::size_t k, bool is_b) {
+                const BodyPoint& p = s.points[k];
+                if (!has_changed(p, lack)) return;
+                add_own(s, p, is_b);
+                if (p.b >= 0 && static_cast<int>(b) == std::min(p.a, p.b)) add_between(s, p);
+            });
+            s.diagonal[b] = s.kept_diagonal[b];
+        });
+        s.for_points([&](std::size_t k) {
+            if (has_changed(s.points[k], lack)) hold(s.points[k]);
+        });
+        constexpr std::size_t kBlock = 256;  // edges
+        s.team.run_blocks(s.upper.size(), kBlock, [&](std::size_t first, std::size_t last) {
+            std::copy(s.kept_upper.begin() + static_cast<std::ptrdiff_t>(first),
+                      s.kept_upper.begin() + static_cast<std::ptrdiff_t>(last),
+                      s.upper.begin() + static_cast<std::ptrdiff_t>(first));
+            if (!s.symmetric)
+                std::copy(s.kept_upper.begin() + static_cast<std::ptrdiff_t>(first),
+                          s.kept_upper.begin() + static_cast<std::ptrdiff_t>(last),
+                          s.lower.begin() + static_cast<std::ptrdiff_t>(first));
+        });
+    }
+
+    /// By how much the point's curvatures changed, times its Jacobian for one of its bodies.
+    [[gnu::always_inline]] static Directions share_of(const BodyPoint& p, bool is_b) {
         const double n = p.d_n - p.held_n, d_11 = p.d_11 - p.held_11, d_12 = p.d_12 - p.held_12,
                      d_22 = p.d_22 - p.held_22;
-        p.held_n = p.d_n, p.held_11 = p.d_11, p.held_12 = p.d_12, p.held_22 = p.d_22;
-        const auto share = [&](const Six& jn, const Six& j1, const Six& j2) {
-            const Row t1 = load(j1), t2 = load(j2);
-            return Directions{n * load(jn), d_11 * t1 + d_12 * t2, d_12 * t1 + d_22 * t2};
-        };
-        const Directions a = share(p.n_a, p.t1_a, p.t2_a);
-        add_product(s.kept_diagonal[static_cast<std::size_t>(p.a)], p.n_a, p.t1_a, p.t2_a, a);
-        if (p.b < 0) return;
-        const Directions b = share(p.n_b, p.t1_b, p.t2_b);
-        add_product(s.kept_diagonal[static_cast<std::size_t>(p.b)], p.n_b, p.t1_b, p.t2_b, b);
+        const Row jn = load(is_b ? p.n_b : p.n_a), t1 = load(is_b ? p.t1_b : p.t1_a),
+                  t2 = load(is_b ? p.t2_b : p.t2_a);
+        return {n * jn, d_11 * t1 + d_12 * t2, d_12 * t1 + d_22 * t2};
+    }
+
+    /// What the point changes in the block of one of its bodies, and in the block between them.
+    static void add_own(BodyIsland& s, const BodyPoint& p, bool is_b) {
+        const auto body = static_cast<std::size_t>(is_b ? p.b : p.a);
+        if (is_b)
+            add_product(s.kept_diagonal[body], p.n_b, p.t1_b, p.t2_b, share_of(p, true));
+        else
+            add_product(s.kept_diagonal[body], p.n_a, p.t1_a, p.t2_a, share_of(p, false));
+    }
+    static void add_between(BodyIsland& s, const BodyPoint& p) {
         SixBlock& between = s.kept_upper[static_cast<std::size_t>(p.edge)];
         if (p.b_first)
-            add_product(between, p.n_b, p.t1_b, p.t2_b, a);
+            add_product(between, p.n_b, p.t1_b, p.t2_b, share_of(p, false));
         else
-            add_product(between, p.n_a, p.t1_a, p.t2_a, b);
+            add_product(between, p.n_a, p.t1_a, p.t2_a, share_of(p, true));
     }
 
     /// Friction that slides by the normal velocity: what is not symmetric.
@@ -230,6 +322,53 @@ class LaneBodies final : public BodyKernel {
             }
         }
         return true;
+    }
+
+    /// Likewise by the threads of a team, column by column (factor_tasks.h).
+    static bool factor_together(BodyIsland& s) {
+        s.tasks.done.clear(s.order.pivots().size());
+        bool fine = true;
+        s.team.run_in_order(s.tasks.count(), [&](std::size_t task, std::size_t) {
+            for (const std::uint32_t pivot : s.tasks.pivots_of(task)) {
+                if (!factor_column(s, pivot)) __atomic_store_n(&fine, false, __ATOMIC_RELAXED);
+                s.tasks.done.set(pivot);
+            }
+        });
+        return fine;
+    }
+
+    static bool factor_column(BodyIsland& s, std::size_t number) {
+        const BodyOrder::Pivot& column = s.order.pivots()[number];
+        const auto k = static_cast<std::size_t>(column.body);
+        for (const FactorTasks::Update& from : s.tasks.updates_of(number)) {
+            s.tasks.done.wait_for(from.pivot);
+            take_update(s, s.order.pivots()[from.pivot], from.edge, s.diagonal[k]);
+        }
+        if (!factor_block(s.diagonal[k], s.pivot_factors[k])) return false;
+        for (std::size_t e = column.first; e < column.last; ++e)
+            divide(s.diagonal[k], s.pivot_factors[k], s.symmetric, s.upper[e], s.lower[e]);
+        return true;
+    }
+
+    /// Subtracts what an earlier pivot takes from the column at which its edge ends.
+    static void take_update(BodyIsland& s, const BodyOrder::Pivot& pivot, std::size_t own,
+                            SixBlock& diagonal) {
+        subtract_product(s.lower[own], s.upper[own], diagonal);
+        const std::size_t edges = pivot.last - pivot.first;
+        const auto subtract_pair = [&](const BodyOrder::Update& update, std::size_t other) {
+            const auto edge = static_cast<std::size_t>(update.edge);
+            subtract_product(s.lower[own], s.upper[other], s.upper[edge]);
+            if (!s.symmetric) subtract_product(s.upper[own], s.lower[other], s.lower[edge]);
+        };
+        const BodyOrder::Update* updates = s.order.updates().data() + pivot.updates;
+        for (std::size_t i = pivot.first; i < own; ++i) {  // updates: the row of i, from i + 1 on
+            const BodyOrder::Update& update = updates[own - i - 1];
+            if (update.j_first) subtract_pair(update, i);
+            updates += edges - (i - pivot.first) - 1;
+        }
+        for (std::size_t j = own + 1; j < pivot.last; ++j)
+            if (const BodyOrder::Update& update = updates[j - own - 1]; !update.j_first)
+                subtract_pair(update, j);
     }
 
     static bool factor_block(SixBlock& block, BodyIsland::PivotFactor& pivot) {

@@ -36,7 +36,7 @@ RobotWork& LaneContacts::start(const Model& model, std::size_t lane, const LaneR
 bool LaneContacts::find(const Model& model, std::size_t lane) {
     RobotWork& work = works_[lane];
     finder_.find(model, {&work, 1}, nullptr, false, contacts_[lane]);
-    recall_impulses({&work, 1}, contacts_[lane]);
+    recall_impulses({&work, 1}, 0, 1, contacts_[lane]);
     spans_[lane] = contacts_[lane];
     return finder_.near_misses().empty();
 }
@@ -91,7 +91,7 @@ unsigned LaneContacts::alike(const Model& model, const RobotType& type, unsigned
 }
 
 void LaneContacts::remember(const Model& model, std::size_t lane, StepReport& report) {
-    remember_impulses({&works_[lane], 1}, contacts_[lane]);
+    remember_impulses({&works_[lane], 1}, 0, 1, contacts_[lane]);
     for (const Contact& c : contacts_[lane]) {
         if (c.impulse <= 0) continue;
         ++report.contacts;

@@ -25,7 +25,6 @@ class LaneSweeps {
         double change = first_sweep(s, progress);
         while (!progress.ends(change)) {
             accelerate_bodies(s, progress.share());
-            keep_velocities(s);
             change = sweep(s, progress.share());
         }
         finish(s);
@@ -120,10 +119,10 @@ class LaneSweeps {
         return ((sums[0] + sums[1]) + (sums[2] + sums[3])) + (sums[4] + sums[5]);
     }
 
-    /// A contact point of each pair; adds the squared change of the impulses, each by its effective mass.
+    /// A contact point of each pair; returns the squared change of the impulses, each by its effective mass.
     template <bool kScenery>
-    [[gnu::always_inline]] static void sweep_point(PointSlot& p, std::size_t lane, const Part& share,
-                                                   Velocities& y, Part& change) {
+    [[gnu::always_inline]] static Part sweep_point(PointSlot& p, std::size_t lane, const Part& share,
+                                                   Velocities& y) {
         const auto accelerated = [&](const Eight& impulse, const Eight& last, Eight& direction) {
             const Part old = share * at(direction, lane);
             put(old + at(last, lane), lane, direction);
@@ -156,19 +155,18 @@ class LaneSweeps {
         }
         put(n, lane, p.impulse_n), put(t1, lane, p.impulse_1), put(t2, lane, p.impulse_2);
         put(dn, lane, p.change_n), put(d1, lane, p.change_1), put(d2, lane, p.change_2);
-        change = change +
-                 (dn * dn * at(p.inverse_mass_n, lane) + (d1 * d1 + d2 * d2) * at(p.inverse_mass_t, lane));
+        return dn * dn * at(p.inverse_mass_n, lane) + (d1 * d1 + d2 * d2) * at(p.inverse_mass_t, lane);
     }
 
-    /// The pairs of a batch from `lane` on.
-    template <bool kScenery>
+    /// The pairs of a batch from `lane` on; take(slot, change of its impulses).
+    template <bool kScenery, class Take>
     [[gnu::always_inline]] static void sweep_batch(BodyIsland& s, const PairBatch& batch, std::size_t lane,
-                                                   const Part& share, Part& change) {
+                                                   const Part& share, const Take& take) {
         Velocities y;
         gather(s.swept.data(), batch.a + lane, y.a);
         if constexpr (!kScenery) gather(s.swept.data(), batch.b + lane, y.b);
         for (std::size_t k = batch.first; k < batch.last; ++k)
-            sweep_point<kScenery>(s.slots[k], lane, share, y, change);
+            take(k, sweep_point<kScenery>(s.slots[k], lane, share, y));
         scatter(y.a, batch.a + lane, s.swept.data());
         if constexpr (!kScenery) scatter(y.b, batch.b + lane, s.swept.data());
     }
@@ -186,18 +184,76 @@ class LaneSweeps {
 
     /// One sweep; returns the squared change of the impulses.
     static double sweep(BodyIsland& s, double share) {
+        if (s.team.size() > 1) return sweep_together(s, share);
         Eight changes;
         const Part shares = all(share);
         for (const PairBatch& batch : s.pairs.batches())
             for (std::size_t lane = 0; lane < static_cast<std::size_t>(batch.pairs); lane += kWidth) {
                 Part change = at(changes, lane);
+                const auto add = [&](std::size_t, const Part& by) { change = change + by; };
                 if (batch.scenery)
-                    sweep_batch<true>(s, batch, lane, shares, change);
+                    sweep_batch<true>(s, batch, lane, shares, add);
                 else
-                    sweep_batch<false>(s, batch, lane, shares, change);
+                    sweep_batch<false>(s, batch, lane, shares, add);
                 put(change, lane, changes);
             }
         return total(changes);
+    }
+
+    /// Likewise by the threads of a team, colour by colour. The changes of a colour are added, in the order
+    /// of one thread, while the next one is swept.
+    static double sweep_together(BodyIsland& s, double share) {
+        constexpr std::size_t kBlock = 2;  // batches
+        const std::vector<std::size_t>& colours = s.pairs.colours();
+        Eight changes;
+        for (std::size_t c = 0; c + 1 < colours.size(); ++c) {
+            const std::size_t begin = colours[c], end = colours[c + 1];
+            s.team.run(1 + (end - begin + kBlock - 1) / kBlock, [&](std::size_t item, std::size_t) {
+                if (item == 0) {
+                    if (c > 0) add_terms(s, colours[c - 1], begin, changes);
+                    return;
+                }
+                const std::size_t first = begin + (item - 1) * kBlock, last = std::min(first + kBlock, end);
+                for (std::size_t k = first; k < last; ++k) {
+                    if (k + 1 < end) fetch(s, s.pairs.batches()[s.pairs.by_bodies()[k + 1]]);
+                    sweep_for_team(s, s.pairs.batches()[s.pairs.by_bodies()[k]], all(share));
+                }
+            });
+        }
+        if (colours.size() > 1) add_terms(s, colours[colours.size() - 2], colours.back(), changes);
+        return total(changes);
+    }
+
+    /// Fetches the velocities of the bodies, which another thread may have changed last, while something else
+    /// is computed.
+    static void fetch(const BodyIsland& s, const PairBatch& batch) {
+        for (std::size_t i = 0; i < 8; ++i) {
+            __builtin_prefetch(&s.swept[static_cast<std::size_t>(batch.a[i])], 1);
+            if (!batch.scenery) __builtin_prefetch(&s.swept[static_cast<std::size_t>(batch.b[i])], 1);
+        }
+    }
+
+    static void sweep_for_team(BodyIsland& s, const PairBatch& batch, const Part& share) {
+        for (std::size_t lane = 0; lane < static_cast<std::size_t>(batch.pairs); lane += kWidth) {
+            const auto keep = [&](std::size_t slot, const Part& by) { put(by, lane, s.slot_terms[slot]); };
+            if (batch.scenery)
+                sweep_batch<true>(s, batch, lane, share, keep);
+            else
+                sweep_batch<false>(s, batch, lane, share, keep);
+        }
+    }
+
+    /// Adds the changes of batches.
+    static void add_terms(const BodyIsland& s, std::size_t first, std::size_t last, Eight& changes) {
+        for (std::size_t k = first; k < last; ++k) {
+            const PairBatch& batch = s.pairs.batches()[k];
+            for (std::size_t lane = 0; lane < static_cast<std::size_t>(batch.pairs); lane += kWidth) {
+                Part change = at(changes, lane);
+                for (std::size_t slot = batch.first; slot < batch.last; ++slot)
+                    change = change + at(s.slot_terms[slot], lane);
+                put(change, lane, changes);
+            }
+        }
     }
 
     static double total(const Eight& sums) {
@@ -231,25 +287,55 @@ class LaneSweeps {
     }
 
     /// Moves along the search direction, shortened by `share`, and adds the last sweep's change to it.
-    /// Velocities are linear in the impulses, so they have a search direction of their own.
+    /// Velocities are linear in the impulses, so they have a search direction of their own. Keeps them.
     static void accelerate_bodies(BodyIsland& s, double share) {
-        for (std::size_t b = 0; b < s.bodies.size(); ++b) {
-            const Row direction = share * load(s.swept_direction[b]), swept = load(s.swept[b]);
+        s.for_bodies([&](std::size_t b) {
+            const Row direction = share * load(s.swept_direction[b]), swept = load(s.swept[b]),
+                      moved = swept + direction;
             store(direction + (swept - load(s.swept_before[b])), s.swept_direction[b]);
-            store(swept + direction, s.swept[b]);
-        }
+            store(moved, s.swept[b]), store(moved, s.swept_before[b]);
+        });
     }
 
     static void start(BodyIsland& s) {
         make_room_for_sweeps(s);
-        const std::size_t bodies = s.bodies.size();
-        for (std::size_t b = 0; b < bodies; ++b) {
+        s.for_bodies([&](std::size_t b) {
             invert_root(s.bodies[b].mass, s.whitening[b]);
             store(times(s.whitening[b], s.bodies[b].impulse), s.swept[b]);
+        });
+        if (s.team.size() == 1) {
+            for (std::size_t k = 0; k < s.points.size(); ++k) take_point<true>(s, k);
+            return;
         }
-        for (std::size_t k = 0; k < s.points.size(); ++k) take_point(s, k);
+        s.for_points([&](std::size_t k) { take_point<false>(s, k); });
+        s.for_bodies([&](std::size_t b) {
+            s.ends.for_each(b, [&](std::size_t k, bool is_b) {
+                const BodyPoint& p = s.points[k];
+                if (is_b)
+                    push(s, b, p,
+                         {times(s.whitening[b], p.n_b), times(s.whitening[b], p.t1_b),
+                          times(s.whitening[b], p.t2_b)});
+                else
+                    push(s, b, p,
+                         {times(s.whitening[b], p.n_a), times(s.whitening[b], p.t1_a),
+                          times(s.whitening[b], p.t2_a)});
+            });
+        });
     }
 
+    /// Jacobian of a point for one of its bodies, whitened.
+    struct Whitened {
+        Row n, t1, t2;
+    };
+    /// The point's impulses change the body's velocity.
+    [[gnu::always_inline]] static void push(BodyIsland& s, std::size_t body, const BodyPoint& p,
+                                            const Whitened& j) {
+        Row y = load(s.swept[body]);
+        add(y, p.f_n, j.n), add(y, p.f_1, j.t1), add(y, p.f_2, j.t2);
+        store(y, s.swept[body]);
+    }
+
+    template <bool kPushes>
     static void take_point(BodyIsland& s, std::size_t point) {
         const BodyPoint& p = s.points[point];
         const std::size_t place = s.pairs.place_of(point), lane = place % 8;
@@ -262,9 +348,7 @@ class LaneSweeps {
             n_n += roboss::total(rows[0] * rows[0]);
             t_1 += roboss::total(rows[1] * rows[1]), t_2 += roboss::total(rows[2] * rows[2]);
             n_1 += roboss::total(rows[0] * rows[1]), n_2 += roboss::total(rows[0] * rows[2]);
-            Row y = load(s.swept[static_cast<std::size_t>(body)]);
-            add(y, p.f_n, rows[0]), add(y, p.f_1, rows[1]), add(y, p.f_2, rows[2]);
-            store(y, s.swept[static_cast<std::size_t>(body)]);
+            if constexpr (kPushes) push(s, static_cast<std::size_t>(body), p, {rows[0], rows[1], rows[2]});
             Eight* to[3] = {to_n, to_1, to_2};
             for (std::size_t d = 0; d < 3; ++d) {
                 Six six;
@@ -313,18 +397,18 @@ class LaneSweeps {
 
     /// v = L^-T y, and the impulses.
     static void finish(BodyIsland& s) {
-        for (std::size_t b = 0; b < s.bodies.size(); ++b) {
+        s.for_bodies([&](std::size_t b) {
             const Row y = load(s.swept[b]);
             for (std::size_t i = 0; i < 6; ++i)
                 s.bodies[b].v.x[i] = roboss::total(load(s.whitening[b].row[i]) * y);
-        }
-        for (std::size_t k = 0; k < s.points.size(); ++k) {
+        });
+        s.for_points([&](std::size_t k) {
             const std::size_t place = s.pairs.place_of(k), lane = place % 8;
             const PointSlot& slot = s.slots[place / 8];
             BodyPoint& p = s.points[k];
             p.swept_n = slot.impulse_n.x[lane];
             p.swept_1 = slot.impulse_1.x[lane], p.swept_2 = slot.impulse_2.x[lane];
-        }
+        });
     }
 };
 

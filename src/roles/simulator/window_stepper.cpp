@@ -25,7 +25,6 @@ WindowStepper::WindowStepper(std::shared_ptr<const Model> model, ThreadPool& poo
       options_(std::move(options)),
       scratch_(pool.threads()),
       profiles_(pool.threads()),
-      largest_groups_(pool.threads()),
       lane_groups_(pool.threads()) {
     for (StepScratch& scratch : scratch_) scratch.use_lanes(options_.lanes);
 }
@@ -116,19 +115,16 @@ WindowResult WindowStepper::step(const Assignment& assignment, StateStore& store
     return std::move(job.result);
 }
 
-/// All threads step an island together if it is more than their share of the work, and most of its robots may
-/// meet. Such islands are the first; returns how many.
+/// All threads step an island together if it is more than their share of the work. Such islands are the first;
+/// returns how many.
 std::size_t WindowStepper::step_large_batches(Job& job) {
-    const std::size_t groups = std::ranges::max(largest_groups_);
     const std::size_t all = std::accumulate(weights_.begin(), weights_.end(), std::size_t{0});
-    std::ranges::fill(largest_groups_, 0);
     if (in_lockstep(job.assignment)) return 0;
     scratch_[0].use_team(Team(pool_));
     std::size_t large = 0;
     for (; large + 1 < batch_offsets_.size(); ++large) {
-        const std::uint32_t island = sequence_[batch_offsets_[large]];
-        const std::size_t robots = job.robots(island).size();
-        if (weights_[island] * threads() <= all || (robots > 1 && groups * 2 <= robots)) break;
+        const std::size_t own = weights_[sequence_[batch_offsets_[large]]];
+        if (own < kTeamFrom || own * threads() <= all) break;
         step_batch(job, large, 0);
     }
     scratch_[0].use_team({});
@@ -193,8 +189,6 @@ bool WindowStepper::step_tick(Job& job, std::size_t island, Tick tick, std::span
         step_island(*model_, tick, robots, std::span(states_).subspan(first, robots.size()), orders,
                     std::span(bounds_).subspan(first, robots.size()), scratch_[worker]);
     profiles_[worker] += report.profile;
-    largest_groups_[worker] =
-        std::max(largest_groups_[worker], static_cast<std::size_t>(report.largest_group));
     sweep(job, island, orders);
     for (const float effort : read_efforts(scratch_[worker])) count(island, effort);
     IslandResult& outcome = job.result.islands[island];

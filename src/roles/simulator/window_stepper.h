@@ -94,10 +94,9 @@ class WindowStepper {
     std::shared_ptr<const Model> model_;
     ThreadPool& pool_;
     SteppingOptions options_;
-    std::vector<StepScratch> scratch_;         // one a thread
-    bool measured_ = false;                    // this assignment
-    std::vector<StepProfile> profiles_;        // likewise, of this window
-    std::vector<std::size_t> largest_groups_;  // likewise, of the last window: most robots that may meet
+    std::vector<StepScratch> scratch_;   // one a thread
+    bool measured_ = false;              // this assignment
+    std::vector<StepProfile> profiles_;  // likewise, of this window
 
     // flat over the assignment's robots
     std::vector<RobotState*> states_;
