@@ -115,8 +115,8 @@ WindowResult WindowStepper::step(const Assignment& assignment, StateStore& store
     return std::move(job.result);
 }
 
-/// All threads step an island together if it is more than their share of the work. Such islands are the first;
-/// returns how many.
+/// All threads step an island together if it is more than their share of the work. Such islands are the
+/// first; returns how many.
 std::size_t WindowStepper::step_large_batches(Job& job) {
     const std::size_t all = std::accumulate(weights_.begin(), weights_.end(), std::size_t{0});
     if (in_lockstep(job.assignment)) return 0;
