@@ -16,8 +16,8 @@ class ReadyFlags {
     void wait_for(std::size_t flag);
 
   private:
-    std::vector<std::uint32_t> rounds_;  // by flag: the last one in which it was set
-    std::uint32_t round_ = 0;
+    std::vector<std::uint64_t> rounds_;  // by flag: the last one in which it was set
+    std::uint64_t round_ = 0;
 };
 
 }  // namespace roboss

@@ -69,6 +69,7 @@ class WorldStepper {
     bool run_batches(Tick from, Tick until, std::span<const Order> orders);
     std::size_t step_large_batches(Tick from, Tick until, std::span<const Order> orders);
     Batch& add_batch();
+    double effort_of(RobotId robot) const;
     void enlist(Batch& batch, std::span<const RobotId> robots);
     void finish(Batch& batch, std::vector<RobotState>& states);
     void note_motions(Tick ticks, const std::vector<RobotState>& states);

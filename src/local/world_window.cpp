@@ -22,10 +22,16 @@ WorldStepper::Batch& WorldStepper::add_batch() {
     return batch;
 }
 
+/// Work of the last window; iterations of robots with many loops take as long as their bodies are many.
+double WorldStepper::effort_of(RobotId robot) const {
+    return static_cast<double>(efforts_[robot.index()]) *
+           static_cast<double>(weight_of(model_->type_of(robot)));
+}
+
 void WorldStepper::enlist(Batch& batch, std::span<const RobotId> robots) {
     batch.robots.insert(batch.robots.end(), robots.begin(), robots.end());
     double effort = 0;
-    for (const RobotId robot : robots) effort += static_cast<double>(efforts_[robot.index()]);
+    for (const RobotId robot : robots) effort += effort_of(robot);
     batch.effort += effort;
     batch.heaviest = std::max(batch.heaviest, effort);
 }
@@ -50,8 +56,7 @@ void WorldStepper::plan(Tick ticks, std::span<const Order> orders, std::vector<R
     for (std::size_t b = 0; b < std::min(wanted, islands_.count()); ++b) add_batch();
     island_efforts_.assign(islands_.count(), 0.0);
     for (std::size_t i = 0; i < islands_.count(); ++i)
-        for (const RobotId robot : islands_.of(i))
-            island_efforts_[i] += static_cast<double>(efforts_[robot.index()]);
+        for (const RobotId robot : islands_.of(i)) island_efforts_[i] += effort_of(robot);
     sequence_.resize(islands_.count());
     std::iota(sequence_.begin(), sequence_.end(), 0U);
     std::ranges::stable_sort(sequence_, std::greater<>(),

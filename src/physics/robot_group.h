@@ -21,8 +21,6 @@ struct StepCall {
 /// The stages of a group, called by step_robots in the order in which they are declared.
 class RobotGroup {
   public:
-    /// Smaller groups are not worth waking other threads for.
-
     /// `chosen`, ascending, index the call's robots; `works`: buffers for as many. A group of one costs no
     /// search for pairs.
     RobotGroup(const StepCall& call, std::span<const std::uint32_t> chosen, std::span<RobotWork> works,

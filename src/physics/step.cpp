@@ -245,6 +245,15 @@ void step_lone_robots(const StepCall& call, Impl& s) {
         });
 }
 
+std::size_t weight_of(const StepCall& call, const Unit& unit, Impl& s) {
+    const std::span<const std::uint32_t> robots =
+        unit.kind == Unit::Kind::kGroup ? std::span<const std::uint32_t>(s.sets.near()) : s.lone;
+    std::size_t sum = 0;
+    for (const std::uint32_t i : robots.subspan(unit.first, unit.last - unit.first))
+        sum += weight_of(call.model.type_of(call.robots[i]));
+    return sum;
+}
+
 /// Lists them instead.
 void list_lone_robots(const StepCall& call, Impl& s) {
     constexpr std::size_t kBlock = 16;
@@ -269,7 +278,8 @@ void list_lone_robots(const StepCall& call, Impl& s) {
     for (const Unit& unit : s.units) {
         Unit* last = kept > 0 ? &s.units[kept - 1] : nullptr;
         if (last != nullptr && unit.kind == Unit::Kind::kAlone && last->kind == Unit::Kind::kAlone &&
-            last->last == unit.first && last->last - last->first < kBlock)
+            last->last == unit.first && last->last - last->first < kBlock &&
+            weight_of(call, unit, s) < kTeamFrom && weight_of(call, *last, s) < kTeamFrom)
             last->last = unit.last;
         else
             s.units[kept++] = unit;
@@ -308,21 +318,13 @@ void add_report(const StepReport& from, StepReport& to) {
     note_failure_of(from, to);
 }
 
-std::size_t weight_of(const StepCall& call, const Unit& unit, Impl& s) {
-    const std::span<const std::uint32_t> robots =
-        unit.kind == Unit::Kind::kGroup ? std::span<const std::uint32_t>(s.sets.near()) : s.lone;
-    std::size_t sum = 0;
-    for (const std::uint32_t i : robots.subspan(unit.first, unit.last - unit.first))
-        sum += weight_of(call.model.type_of(call.robots[i]));
-    return sum;
-}
-
 /// Large groups by all threads of the team, one after the other; then what is small, side by side. No bit
 /// depends on it.
 void step_side_by_side(const StepCall& call, Impl& s) {
     list_lone_robots(call, s);
     const auto is_large = [&](const Unit& unit) {
-        return unit.kind != Unit::Kind::kLanes && weight_of(call, unit, s) >= kTeamFrom;
+        const bool one = unit.kind == Unit::Kind::kGroup || unit.last - unit.first == 1;
+        return unit.kind != Unit::Kind::kLanes && one && weight_of(call, unit, s) >= kTeamFrom;
     };
     for (const Unit& unit : s.units) {
         if (!is_large(unit)) continue;

@@ -75,8 +75,8 @@ class StepScratch {
     /// From now on each step reports how long its stages take by this clock, and what its solver did;
     /// nullptr: not. No bit depends on it.
     void measure_stages(StageNow now);
-    /// From now on the team's threads share the work of a large group of robots that may meet. No bit depends
-    /// on it. The team must not be running during a step.
+    /// From now on the team's threads share the work: groups side by side, and what one large group has to
+    /// do. No bit depends on it. The team must not be running during a step.
     void use_team(const Team& team);
     /// Most robots of a type that are stepped at once in numbers of this precision.
     std::size_t lanes(Precision precision = Precision::kDouble) const;

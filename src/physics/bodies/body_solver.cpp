@@ -182,7 +182,8 @@ bool BodySolver::settle_velocities(const Accuracy& accuracy) {
     }
     const int most = alone ? std::min(most_sweeps(bodies), kSweepsAlone) : most_sweeps(bodies);
     const bool may_settle = !alone && bodies >= kLargePile;
-    const SweepReport report = sweep(may_settle ? pile_plan(accuracy, most) : SweepPlan{.most = most});
+    const SweepReport report =
+        sweep(may_settle ? pile_plan(accuracy, most, bodies) : SweepPlan{.most = most});
     if (!swept_ || (!report.settled && !alone)) return false;
     take_swept();
     iterations_ += report.iterations();
@@ -191,7 +192,7 @@ bool BodySolver::settle_velocities(const Accuracy& accuracy) {
 
 /// Likewise the displacement of a pile.
 bool BodySolver::settle_displacement(const BodyPart& part) {
-    const SweepPlan plan = pile_plan(part.problem.accuracy, 1);
+    const SweepPlan plan = pile_plan(part.problem.accuracy, 1, island_.bodies.size());
     if (island_.bodies.size() < kLargePile || plan.settle_tolerance == 0 || hardly_moves()) return false;
     const SweepReport report = sweep(plan);
     iterations_ += report.iterations();

@@ -18,8 +18,9 @@ void SweepProgress::begin(double impulses, double motion) {
 
 bool SweepProgress::ends(double change) {
     ++report_.sweeps;
-    report_.settled = moves_ && change <= enough_;
-    if (change <= enough_ || report_.sweeps >= most_ || !std::isfinite(change)) return true;
+    const bool is_last = report_.sweeps >= most_;
+    report_.settled = moves_ && change <= (is_last ? plan_.at_last : 1) * enough_;
+    if (change <= enough_ || is_last || !std::isfinite(change)) return true;
     share_ = report_.sweeps > 1 && change <= last_ ? change / last_ : 0;
     last_ = change;
     if (is_stuck(change)) share_ = 0;

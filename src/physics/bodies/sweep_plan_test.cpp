@@ -41,6 +41,25 @@ TEST(SweepProgress, SomethingFastDoesNotLoosenWhatRestsBesideIt) {
     EXPECT_TRUE(progress.report().settled);
 }
 
+TEST(SweepProgress, WhatALargePileMissesAtLastIsTaken) {
+    SweepPlan plan = kPlan;
+    plan.most_to_settle = 2, plan.at_last = 100;
+    SweepProgress progress(plan);
+    progress.begin(1, 2);
+    EXPECT_FALSE(progress.ends(1.9e-5));
+    EXPECT_FALSE(progress.report().settled);
+    EXPECT_TRUE(progress.ends(1.9e-5));
+    EXPECT_TRUE(progress.report().settled);
+    SweepProgress fails(plan);
+    fails.begin(1, 2);
+    EXPECT_FALSE(fails.ends(1.9e-5));
+    EXPECT_TRUE(fails.ends(2.1e-5));
+    EXPECT_FALSE(fails.report().settled);
+    const Accuracy standard;
+    EXPECT_EQ(pile_plan(standard, 80, 511).at_last, 1);
+    EXPECT_GT(pile_plan(standard, 80, 512).at_last, 1);
+}
+
 TEST(SweepProgress, WhatIsNoNumberEndsThem) {
     SweepProgress progress(kPlan);
     progress.begin(1, 2);

@@ -1,5 +1,5 @@
 // The loops of a robot with many of them, solved with every body for itself: the conditions of all joints
-// are rows of one sparse matrix (model/joint_elimination.h), factored joint by joint. A net of n plates costs
+// are rows of one sparse matrix (model/joint_elimination.h), factored by fronts. A net of n plates costs
 // O(n^1.5), where the matrix of its loops alone costs O(n^3).
 #pragma once
 

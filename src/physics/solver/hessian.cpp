@@ -70,11 +70,7 @@ bool Hessian::is_last_clique(std::size_t begin) const {
 
 void Hessian::assemble(IslandRows& rows, bool coupled, double lack) {
     if (form_ == Form::kTree) return tree_.assemble(rows, coupled, lack);
-    if (form_ == Form::kNet) {
-        refused_ = coupled;
-        if (!coupled) net_.assemble(rows);
-        return;
-    }
+    if (form_ == Form::kNet) return net_.assemble(rows);
     add_changes(rows, lack);
     fronts_.begin_factor(!coupled);
     if (coupled) add_slides(rows);
@@ -164,10 +160,7 @@ void Hessian::add_slides(const IslandRows& rows) {
 
 bool Hessian::solve(std::vector<double>& x) {
     if (form_ == Form::kTree) return tree_.solve(x);
-    if (form_ == Form::kNet) {
-        if (!refused_) net_.solve(x, team_);
-        return !refused_;
-    }
+    if (form_ == Form::kNet) return net_.solve(x, team_), true;
     return fronts_.solve(x);
 }
 

@@ -20,6 +20,8 @@ class Hessian {
     /// rows' curvatures are not in yet.
     void start(std::span<const Mechanics<double>* const> robots, std::span<const int> offsets,
                IslandRows& rows, std::size_t n);
+    /// Whether it does unsymmetric matrices.
+    bool couples() const { return form_ != Form::kNet; }
     /// Takes the rows' curvatures, as far as they changed; with `coupled` also those of friction bounds that
     /// move with the normal impulse, which make the matrix unsymmetric. Of the curvature of friction that
     /// only turned a little, it may lack the share `lack`.
@@ -44,7 +46,6 @@ class Hessian {
     enum class Form : char { kTree, kFronts, kNet } form_ = Form::kTree;
     TreeHessian<double> tree_;
     NetHessian net_;
-    bool refused_ = false;  // an unsymmetric matrix, which net_ does not do
     Team team_;
     FrontFactor fronts_;
     std::vector<int> group_first_, heads_, unknowns_;

@@ -94,7 +94,7 @@ bool IslandSolver::solve_by_sweeps(const Problem& p, std::vector<double>& v, Rep
     v_before_sweeps_ = v;
     const int most = most_sweeps(p.robots.size());
     sweeps_.run(p, most, v);
-    for (int tries = 1, longs = 1;; ++tries) {
+    for (int tries = 1, longs = 1; hessian_.couples(); ++tries) {
         step_as_swept(p, v, report);
         const bool is_close = report.residual <= plan_.couple_from;
         if (is_close && solve_coupled(p, alone, v, report)) return true;
@@ -106,7 +106,7 @@ bool IslandSolver::solve_by_sweeps(const Problem& p, std::vector<double>& v, Rep
     }
     // Sweeps that do not converge still tell the friction bounds better than anything else.
     step_as_swept(p, v, report);
-    if (Newton::iterate(p, alone, v, report, true)) return true;
+    if (Newton::iterate(p, alone, v, report, hessian_.couples())) return true;
     v = v_before_sweeps_;
     take_velocities(p, v);
     friction::set_bounds(p.rows, start_bounds_);

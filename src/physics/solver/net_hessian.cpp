@@ -44,8 +44,14 @@ void make_dual(std::span<Spatial> motions) {
 }  // namespace
 
 bool NetHessian::suits(std::span<const Mechanics<double>* const> robots, const IslandRows& rows) {
-    return std::ranges::any_of(robots, [](const auto* robot) { return !robot->type->elimination.empty(); }) &&
-           rows.places.size() == rows.contacts.size() &&
+    constexpr std::size_t kRowsPerBody = 30;
+    std::size_t bodies = 0;
+    for (const Mechanics<double>* robot : robots)
+        if (!robot->type->elimination.empty()) bodies += robot->type->bodies.size();
+    if (bodies == 0 || rows.places.size() != rows.contacts.size()) return false;
+    const auto between =
+        3 * static_cast<std::size_t>(std::ranges::count_if(rows.contacts, &ContactRow::joins));
+    return between <= kRowsPerBody * bodies &&
            std::ranges::none_of(rows.couplings, [](const CouplingRow& row) { return row.bond >= 0; });
 }
 

@@ -25,7 +25,8 @@ namespace roboss {
 
 class NetHessian : BlockLdlt::Source {
   public:
-    /// Whether the island is one for it.
+    /// Whether the island is one for it: not where a few bodies with loops are in a pile of many robots,
+    /// whose contacts have more rows than they have degrees of freedom.
     static bool suits(std::span<const Mechanics<double>* const> robots, const IslandRows& rows);
 
     /// As Hessian::start.

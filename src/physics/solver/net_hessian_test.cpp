@@ -77,12 +77,15 @@ double difference(const std::vector<RobotState>& a, const std::vector<RobotState
 
 class NetHessians : public testing::TestWithParam<int> {};
 
-/// Momentum balances in the coordinates of the tree, after as many steps of Newton's method as with the
-/// matrix there. (After a tick the states differ: robots with many loops move by another Runge-Kutta method.)
+/// Momentum balances in the coordinates of the tree and friction keeps Coulomb's law, after about as many
+/// steps of Newton's method as with the matrix there. (After a tick the states differ a little: robots with
+/// many loops move by another Runge-Kutta method.)
 TEST_P(NetHessians, BalanceAsTheMatrixOfTheTree) {
     Simulation sparse(world_of(GetParam())), dense(world_of(GetParam()));
+    sparse.scratch.measure_stages([] { return std::uint64_t{0}; });
+    dense.scratch.measure_stages([] { return std::uint64_t{0}; });
     dense.model = in_coordinates_of_trees(*sparse.model);
-    double worst = 0;
+    double worst = 0, friction = 0;
     int contacts = 0, by_parts = 0, by_tree = 0;
     constexpr int kTicks = 400;
     for (int i = 0; i < kTicks; ++i) {
@@ -90,17 +93,22 @@ TEST_P(NetHessians, BalanceAsTheMatrixOfTheTree) {
         for (std::size_t r = 0; r < dense.states.size(); ++r) dense.pointers[r] = &dense.states[r];
         contacts = std::max(contacts, sparse.step().contacts);
         dense.step();
+        friction = std::fmax(friction, sparse.report.profile.solver.friction_error);
         by_parts += sparse.report.iterations, by_tree += dense.report.iterations;
-        worst = std::fmax(worst, difference(sparse.states, dense.states));
+        // The matrix of the tree may miss Coulomb's law by a tenth in a pile; then it is no measure.
+        if (dense.report.profile.solver.friction_error < 1e-3)
+            worst = std::fmax(worst, difference(sparse.states, dense.states));
     }
     tell("largest residual", sparse.residual_max);
     tell("iterations, body by body", by_parts);
     tell("iterations, in the coordinates of the trees", by_tree);
     tell("largest difference after one tick", worst);
     tell("most contacts", contacts);
+    tell("largest error of a friction bound", friction);
     EXPECT_LT(sparse.residual_max, 1e-8);
-    EXPECT_LT(by_parts, 1.25 * by_tree + kTicks);
-    EXPECT_LT(worst, GetParam() == 0 ? 1e-4 : 0.2);
+    EXPECT_LT(friction, 2e-4);
+    EXPECT_LT(by_parts, 1.5 * by_tree + kTicks);
+    EXPECT_LT(worst, GetParam() == 2 ? 0.1 : 1e-3);
     EXPECT_GE(contacts, GetParam() == 0 ? 0 : GetParam() == 3 ? 2 : 20);
 }
 

@@ -421,7 +421,7 @@ MaskOf<T> Newton<T, Matrix>::iterate(const SolveProblem<T>& p, Lockstep<T>& toge
     T best = 1, checked_error = 0;
     for (int i = 0; together.any(); ++i) {
         if (together(report.residual <= T(plan_.couple_from))) {
-            if (!settled && coupled_tries < kCoupledTries) {
+            if (!settled && hessian_.couples() && coupled_tries < kCoupledTries) {
                 ++coupled_tries;
                 if (solve_coupled(p, together, v, report)) return true;
                 newton::update_impulses(p.rows);

@@ -56,6 +56,9 @@ class TreeHessian {
         start(*robots[0], rows);
     }
 
+    /// Whether it does unsymmetric matrices.
+    static constexpr bool couples() { return true; }
+
     /// Takes the rows' curvatures, as far as they changed; with `coupled` also those of friction bounds that
     /// move with the normal impulse, which make the matrix unsymmetric. Nothing is left out: here it would
     /// spare little.

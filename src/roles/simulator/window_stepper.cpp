@@ -57,7 +57,7 @@ std::size_t WindowStepper::weight(const Assignment& assignment, std::uint32_t is
     return sum;
 }
 
-/// Large islands first; before them, each for itself, robots that are as much work as many.
+/// Large islands first; before them, each for itself, those with robots that are as much work as many.
 void WindowStepper::cut_batches(const Assignment& assignment) {
     const std::size_t robots_most = in_lockstep(assignment) ? kLockstepMost + 1 : kRobotsPerBatch;
     const auto size = [&](std::uint32_t i) {
@@ -68,11 +68,12 @@ void WindowStepper::cut_batches(const Assignment& assignment) {
     weights_.clear();
     for (std::uint32_t i = 0; i < sequence_.size(); ++i) weights_.push_back(weight(assignment, i));
     const auto is_apart = [&](std::uint32_t i) {
-        return !in_lockstep(assignment) && size(i) == 1 && weights_[i] >= kTeamFrom;
+        return !in_lockstep(assignment) && weights_[i] > size(i) && weights_[i] >= kTeamFrom;
     };
-    std::stable_sort(sequence_.begin(), sequence_.end(), [&](auto a, auto b) {
-        return std::pair(is_apart(a), size(a)) > std::pair(is_apart(b), size(b));
-    });
+    const auto key = [&](std::uint32_t i) {
+        return std::pair(is_apart(i) ? weights_[i] : std::size_t{0}, std::size_t{size(i)});
+    };
+    std::stable_sort(sequence_.begin(), sequence_.end(), [&](auto a, auto b) { return key(a) > key(b); });
     batch_offsets_.assign(1, 0);
     std::size_t robots = 0;
     for (std::size_t k = 0; k < sequence_.size(); ++k) {
