@@ -334,27 +334,22 @@ void NetHessian::spread_forces(std::span<const double> x) {
     for (const Reading& reading : readings_) add(reading.a, x[reading.dof]), add(reading.b, x[reading.dof]);
 }
 
+/// The scalar product with the forces, over the factor of the part.
+double NetHessian::along(const PartJacobian& j) const {
+    double sum = 0;
+    if (j.part < 0) return sum;
+    const double *by = over(j), *force = forces_.data() + parts_.first_of(j.part);
+    for (std::size_t k = 0; k < parts_.size_of(j.part); ++k) sum += by[k] * force[k];
+    return sum;
+}
+
 /// The parts' motions, which the forces over the factors are, back to degrees of freedom.
 void NetHessian::read_motions(std::span<double> x) const {
-    const auto along = [&](const PartJacobian& j) {
-        double sum = 0;
-        if (j.part < 0) return sum;
-        const double *by = over(j), *motion = forces_.data() + parts_.first_of(j.part);
-        for (std::size_t k = 0; k < parts_.size_of(j.part); ++k) sum += by[k] * motion[k];
-        return sum;
-    };
     for (const Reading& reading : readings_) x[reading.dof] = along(reading.b) + along(reading.a);
 }
 
 void NetHessian::solve(std::span<double> x, const Team& team) {
     spread_forces(x);
-    const auto along = [&](const PartJacobian& j) {
-        double sum = 0;
-        if (j.part < 0) return sum;
-        const double *by = over(j), *force = forces_.data() + parts_.first_of(j.part);
-        for (std::size_t k = 0; k < parts_.size_of(j.part); ++k) sum += by[k] * force[k];
-        return sum;
-    };
     mu_.resize(rows_.size());
     for (std::size_t i = 0; i < rows_.size(); ++i)
         mu_[i] = rows_[i].scale * (along(rows_[i].a) + along(rows_[i].b));
