@@ -17,8 +17,10 @@ NearMiss pair_of(const Contact& c) {
 
 /// Those of which the robot is the first, of contacts in the order of their first robots.
 std::span<const Contact* const> contacts_of(std::uint32_t robot, std::span<const Contact* const> contacts) {
-    const auto own = std::ranges::equal_range(contacts, static_cast<int>(robot), {}, &Contact::robot_a);
-    return {own.begin(), own.end()};
+    const auto before = [](const Contact* c, int r) { return c->robot_a < r; };
+    const int own = static_cast<int>(robot);
+    const auto first = std::lower_bound(contacts.begin(), contacts.end(), own, before);
+    return {first, std::lower_bound(first, contacts.end(), own + 1, before)};
 }
 
 bool is_plane(const Model& model, const Contact& c) {
