@@ -90,7 +90,7 @@ void BlockPattern::gather_ends() {
     }
 }
 
-/// Whether the node at the next position may join the front, which then holds so many zeros `more`. Its ends
+/// Whether the node at the next position may join the front, which then holds `more` further zeros. Its ends
 /// are all of the front's but itself.
 bool BlockPattern::joins(const Front& front, std::size_t zeros, std::size_t position,
                          std::size_t& more) const {

@@ -12,7 +12,8 @@ class ReadyFlags {
     /// Clears the flags 0 .. count-1; no thread may be at work with them.
     void clear(std::size_t count);
     void set(std::size_t flag);
-    /// Returns when the flag is set; what was written before that is visible. Whoever is to set it must run.
+    /// Returns when the flag is set; what was written before that is visible. The thread that sets it must be
+    /// running.
     void wait_for(std::size_t flag);
 
   private:

@@ -1,6 +1,6 @@
 // A pool of threads that runs a batch of independent items. Which thread runs an item is open, so no result
 // may depend on it. The calling thread works too: a pool of one thread starts none. Only as many workers wake
-// as there are items for, and one that wakes when the items are done is not waited for; so many threads cost
+// as there are items for, and one that wakes when the items are done is not waited for; unused threads cost
 // a small batch nothing.
 #pragma once
 
@@ -39,7 +39,7 @@ class ThreadPool {
     /// microseconds before they sleep.
     void run_short(std::size_t count, const Work& work);
 
-    /// Likewise, and each worker has a share of its own, the same in each batch of so many items, so what it
+    /// Likewise, and each worker has a share of its own, the same in each batch of that size, so what it
     /// works on stays in its cache. It goes through it from the front; those that are done take over items of
     /// others from the back. At most 2^32 - 1 items.
     void run_shares(std::size_t count, const Work& work);

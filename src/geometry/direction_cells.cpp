@@ -11,7 +11,7 @@
 namespace roboss {
 namespace {
 
-constexpr std::size_t kFew = 32;  // vertices: so many are looked at as quickly without cells
+constexpr std::size_t kFew = 32;  // vertices: up to here a scan of all of them is as fast
 constexpr std::size_t kVerticesMax = 65536;
 constexpr std::size_t kBlock =
     4;  // vertices that are looked at together; a cell's last one fills up its last block

@@ -79,13 +79,9 @@ std::size_t WorldStepper::step_large_batches(Tick from, Tick until, std::span<co
     const std::span<Batch> batches = std::span(batches_).first(batch_count_);
     double all = 0;
     for (const Batch& batch : batches) all += batch.effort;
-    const auto weight = [&](const Batch& batch) {
-        std::size_t sum = 0;
-        for (const RobotId robot : batch.robots) sum += weight_of(model_->type_of(robot));
-        return sum;
-    };
     const auto is_large = [&](const Batch& batch) {
-        return weight(batch) >= kTeamFrom && batch.heaviest * static_cast<double>(pool_.threads()) > all;
+        return weight_of(*model_, batch.robots) >= kTeamFrom &&
+               batch.heaviest * static_cast<double>(pool_.threads()) > all;
     };
     std::size_t large = 0;
     scratch_[0].use_team(Team(pool_));

@@ -264,7 +264,7 @@ TEST(Invariance, ATeamOfThreadsGivesTheSameBits) {
 TEST(Invariance, ATeamThatStepsSmallGroupsSideBySideGivesTheSameBits) {
     World world = boxes_and_cars();
     const std::size_t box = world.prototypes.size() - 2;
-    for (int i = 0; i < 60; ++i) {  // pairs of boxes, boxes that meet nobody, and cars
+    for (int i = 0; i < 60; ++i) {  // pairs of boxes, single boxes, and cars
         const double x = 3.0 * (i % 10), y = 6.0 * (i / 10), lone = i % 3 == 0 ? 1.5 : 0;
         const std::string number = std::to_string(i);
         world.instances.push_back({"box_" + number, box, {{x, y, 0.15}, {}}, {}});

@@ -60,7 +60,7 @@ struct StepScratch::Impl {
     std::size_t lanes_most = kMostLanes;
     std::vector<Helper> helpers;      // one a thread of the team
     std::vector<Unit> units;          // that they step side by side
-    std::vector<std::uint32_t> lone;  // robots of these that meet nobody
+    std::vector<std::uint32_t> lone;  // robots of these that meet no other
     OnboardScratch onboard;
     RobotWork pulled;  // for those that are pulled
 
@@ -202,7 +202,7 @@ void list_sets(const StepCall& call, Impl& s) {
     list();
 }
 
-/// Steps robots of one type that meet nobody in lanes, and those that cannot go so each by itself. `batch` is
+/// Steps robots of one type that meet no other in lanes, and those that do not fit each by itself. `batch` is
 /// empty afterwards; `kept` a buffer.
 void step_in_lanes(const StepCall& call, std::vector<std::uint32_t>& batch, std::vector<std::uint32_t>& kept,
                    std::span<RobotWork> alone, GroupScratch& group, Impl& s) {
@@ -254,7 +254,7 @@ std::size_t weight_of(const StepCall& call, const Unit& unit, Impl& s) {
     return sum;
 }
 
-/// Lists them instead.
+/// Adds them to the units instead of stepping them.
 void list_lone_robots(const StepCall& call, Impl& s) {
     constexpr std::size_t kBlock = 16;
     s.lone.clear();
@@ -273,7 +273,7 @@ void list_lone_robots(const StepCall& call, Impl& s) {
             s.lone.push_back(i);
             list(Unit::Kind::kAlone, s.lone.size() - 1);
         });
-    // neighbours that go alone become one unit
+    // adjacent robots that are stepped alone become one unit
     std::size_t kept = 0;
     for (const Unit& unit : s.units) {
         Unit* last = kept > 0 ? &s.units[kept - 1] : nullptr;
@@ -328,12 +328,10 @@ void step_side_by_side(const StepCall& call, Impl& s) {
     };
     for (const Unit& unit : s.units) {
         if (!is_large(unit)) continue;
-        if (unit.kind == Unit::Kind::kGroup) {
+        if (unit.kind == Unit::Kind::kGroup)
             step_sets(call, unit, s.works, s.group, s);
-            continue;
-        }
-        for (std::size_t k = unit.first; k < unit.last; ++k)
-            step_group(call, {&s.lone[k], 1}, s.alone, s.group, s);
+        else
+            step_group(call, {&s.lone[unit.first], 1}, s.alone, s.group, s);
     }
     std::erase_if(s.units, is_large);
     call.clock.enter(Stage::kVelocities);  // of all that follows; it is most of it

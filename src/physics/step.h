@@ -54,6 +54,11 @@ inline constexpr std::size_t kMostLanes = 16;  // robots that any processor step
 inline std::size_t weight_of(const RobotType& type) {
     return type.elimination.empty() ? 1 : type.bodies.size();
 }
+inline std::size_t weight_of(const Model& model, std::span<const RobotId> robots) {
+    std::size_t sum = 0;
+    for (const RobotId robot : robots) sum += weight_of(model.type_of(robot));
+    return sum;
+}
 /// The weight of a group of robots that may meet from which a team shares its work.
 inline constexpr std::size_t kTeamFrom = 96;
 

@@ -4,16 +4,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "math/spatial_shift.h"
 #include "model/joint_motion.h"
 #include "physics/dynamics/body_impulses.h"
 
 namespace roboss {
 namespace {
-
-/// A force (moment about O, force) about the point that lies `arm` from O.
-Spatial moved_force(const Spatial& force, const Vec3& arm) {
-    return {force.angular - cross(arm, force.linear), force.linear};
-}
 
 /// I about the centre of mass from I about O: the parallel-axis theorem backwards.
 Sym3 about_centre(const SpatialInertia& I, const Vec3& centre) {
@@ -90,7 +86,7 @@ BodySums sum_placed_bodies(const Model& model, std::span<const double> q, std::s
             sums.potential += joint_potential(dof, q[static_cast<std::size_t>(body.q_index)]);
     }
     if (arm == Vec3{}) return sums;
-    sums.momentum = moved_force(sums.momentum, -arm);
+    sums.momentum = force_about(sums.momentum, -arm);
     move_inertia(arm, sums.inertia);
     return sums;
 }

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 
+#include "math/spatial_shift.h"
 #include "model/joint_motion.h"
 #include "physics/dynamics/equality.h"
 #include "physics/dynamics/joint_complement.h"
@@ -20,11 +21,6 @@ Mat3 inverse_of(const Mat3& m) {
     const Vec3 a = cross(m.r1, m.r2), b = cross(m.r2, m.r0), c = cross(m.r0, m.r1);
     const double s = 1.0 / dot(m.r0, a);
     return {a * s, b * s, c * s};
-}
-
-/// The same motion about a point at p from O.
-Spatial about(const Spatial& motion, const Vec3& p) {
-    return {motion.angular, motion.linear + cross(motion.angular, p)};
 }
 
 const JointElimination& elimination_of(const RobotWork& work) {
@@ -118,7 +114,7 @@ void SparseEqualitySolver::add_tree_rows(std::size_t body) {
 
 /// A wrench about p.
 void SparseEqualitySolver::add_tree_row(const Vec3& p, const Spatial& wrench) {
-    rows_.push_back({{wrench.angular + cross(p, wrench.linear), wrench.linear}, {}, {}});
+    rows_.push_back({force_from(wrench, p), {}, {}});
     wanted_of_.push_back(-1);
 }
 
@@ -160,7 +156,7 @@ SparseEqualitySolver::Axes SparseEqualitySolver::axes_of(std::size_t body, const
     for (int k = 0; k < b.nv; ++k) {
         const auto dof = static_cast<std::size_t>(b.v_index + k);
         if (is_locked(dof)) continue;
-        axes.axis[axes.count] = about(work_->axes[dof], p), axes.dof[axes.count] = dof;
+        axes.axis[axes.count] = motion_about(work_->axes[dof], p), axes.dof[axes.count] = dof;
         ++axes.count;
     }
     return axes;
@@ -178,7 +174,7 @@ void SparseEqualitySolver::move_bodies(std::span<const double> forces) {
         solve_axes(std::span(axes.axis).first(axes.count), x.data());
         Spatial wrench;
         for (std::size_t i = 0; i < axes.count; ++i) wrench += axes.axis[i] * x[i];
-        wrench.angular = wrench.angular + cross(p, wrench.linear);
+        wrench = force_from(wrench, p);
         wrenches_[b] += wrench;
         if (type.bodies[b].parent >= 0)
             wrenches_[static_cast<std::size_t>(type.bodies[b].parent)] += wrench * -1.0;
@@ -244,7 +240,7 @@ void SparseEqualitySolver::read_joints(std::span<double> change) {
         const Vec3 p = work_->bodies[b].X_WB.p - work_->origin;
         Spatial motion = change_[b];
         if (body.parent >= 0) motion = motion - change_[static_cast<std::size_t>(body.parent)];
-        motion = about(motion, p);
+        motion = motion_about(motion, p);
         for (int k = 0; k < body.nv; ++k) change[static_cast<std::size_t>(body.v_index + k)] = 0;
         const Axes axes = axes_of(b, p);
         std::array<double, 6> rates;

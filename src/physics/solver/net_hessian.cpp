@@ -5,18 +5,11 @@
 #include <array>
 #include <cmath>
 
+#include "math/spatial_shift.h"
 #include "physics/dynamics/joint_complement.h"
 
 namespace roboss {
 namespace {
-
-/// The same motion about a point at p from O; the same wrench about O, from about p.
-Spatial about(const Spatial& motion, const Vec3& p) {
-    return {motion.angular, motion.linear + cross(motion.angular, p)};
-}
-Spatial from(const Spatial& wrench, const Vec3& p) {
-    return {wrench.angular + cross(p, wrench.linear), wrench.linear};
-}
 
 /// Wrenches that span the same space as the motions, each with power 1 on its own and none on the others.
 void make_dual(std::span<Spatial> motions) {
@@ -99,16 +92,16 @@ void NetHessian::add_tree_joint(std::size_t robot, std::size_t body) {
     std::array<Spatial, 6> axes;
     const auto count = static_cast<std::size_t>(info.nv);
     for (std::size_t k = 0; k < count; ++k)
-        axes[k] = about(work.axes[static_cast<std::size_t>(info.v_index) + k], p);
+        axes[k] = motion_about(work.axes[static_cast<std::size_t>(info.v_index) + k], p);
     const JointComplement complement = joint_complement(std::span(axes).first(count));
     for (std::size_t i = 0; i < complement.count; ++i) {
-        const Spatial wrench = from(complement.wrenches[i], p);
+        const Spatial wrench = force_from(complement.wrenches[i], p);
         add_row(Kind::kHard, 0, parts_.add_wrench(a, wrench, -1), parts_.add_wrench(b, wrench, 1));
     }
     make_dual(std::span(axes).first(count));
     for (std::size_t k = 0; k < count; ++k) {
         const std::size_t dof = parts_.dof(robot, static_cast<std::size_t>(info.v_index) + k);
-        const Spatial wrench = from(axes[k], p);
+        const Spatial wrench = force_from(axes[k], p);
         readings_.push_back({dof, parts_.add_wrench(a, wrench, -1), parts_.add_wrench(b, wrench, 1)});
         if (has_row_[dof] != 0 || damping_[dof] != 0)
             add_row(Kind::kDof, dof, readings_.back().a, readings_.back().b);
@@ -214,8 +207,6 @@ void NetHessian::assemble(const IslandRows& rows) {
 }
 
 void NetHessian::set_curvatures(const IslandRows& rows) {
-    for (Row& row : rows_)
-        if (row.kind == Kind::kDof) row.d = damping_[row.source];
     joint_d_.assign(damping_.size(), 0.0);
     for (const JointRow& joint : rows.joints) joint_d_[static_cast<std::size_t>(joint.dof)] += joint.d;
     for (std::size_t i = 0; i < rows_.size(); ++i) {
@@ -224,7 +215,7 @@ void NetHessian::set_curvatures(const IslandRows& rows) {
             case Kind::kHard:
                 break;
             case Kind::kDof:
-                row.d += joint_d_[row.source];
+                row.d = damping_[row.source] + joint_d_[row.source];
                 break;
             case Kind::kCoupling:
                 row.d = rows.couplings[row.source].d;
@@ -325,13 +316,15 @@ void NetHessian::spread_forces(std::span<const double> x) {
         for (std::size_t k = 0; k < parts_.size_of(part); ++k) to[k] = x[parts_.dof(r, k)];
         parts_.over_factor(part, to);
     }
-    const auto add = [&](const PartJacobian& j, double force) {
-        if (j.part < 0) return;
-        double* to = forces_.data() + parts_.first_of(j.part);
-        const double* by = over(j);
-        for (std::size_t k = 0; k < parts_.size_of(j.part); ++k) to[k] += by[k] * force;
-    };
-    for (const Reading& reading : readings_) add(reading.a, x[reading.dof]), add(reading.b, x[reading.dof]);
+    for (const Reading& reading : readings_) push(reading.a, x[reading.dof]), push(reading.b, x[reading.dof]);
+}
+
+/// Adds a force along a row.
+void NetHessian::push(const PartJacobian& j, double force) {
+    if (j.part < 0) return;
+    double* to = forces_.data() + parts_.first_of(j.part);
+    const double* by = over(j);
+    for (std::size_t k = 0; k < parts_.size_of(j.part); ++k) to[k] += by[k] * force;
 }
 
 /// The scalar product with the forces, over the factor of the part.
@@ -354,15 +347,9 @@ void NetHessian::solve(std::span<double> x, const Team& team) {
     for (std::size_t i = 0; i < rows_.size(); ++i)
         mu_[i] = rows_[i].scale * (along(rows_[i].a) + along(rows_[i].b));
     matrix_.solve(*this, mu_, 0, team);
-    const auto take = [&](const PartJacobian& j, double impulse) {
-        if (j.part < 0) return;
-        double* force = forces_.data() + parts_.first_of(j.part);
-        const double* by = over(j);
-        for (std::size_t k = 0; k < parts_.size_of(j.part); ++k) force[k] -= by[k] * impulse;
-    };
     for (std::size_t i = 0; i < rows_.size(); ++i) {
-        const double impulse = rows_[i].scale * mu_[i];
-        take(rows_[i].a, impulse), take(rows_[i].b, impulse);
+        const double impulse = -(rows_[i].scale * mu_[i]);
+        push(rows_[i].a, impulse), push(rows_[i].b, impulse);
     }
     read_motions(x);
     for (std::size_t r = 0; r < parts_.robots(); ++r) {

@@ -87,6 +87,7 @@ class NetHessian : BlockLdlt::Source {
     double product(const Row& p, const Row& q, int part) const;
     double* over(const PartJacobian& j) { return over_.data() + j.at; }
     const double* over(const PartJacobian& j) const { return over_.data() + j.at; }
+    void push(const PartJacobian& j, double force);
     double along(const PartJacobian& j) const;
     void spread_forces(std::span<const double> x);
     void read_motions(std::span<double> x) const;

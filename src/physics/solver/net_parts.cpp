@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "math/spatial_shift.h"
+
 namespace roboss {
 namespace {
 
@@ -12,7 +14,7 @@ void put_inertia(const SpatialInertia& I, const Vec3& c, double* out) {
     const auto momentum = [&](const Spatial& about_c) {
         const Spatial v{about_c.angular, about_c.linear + cross(c, about_c.angular)};
         const Spatial p = I * v;
-        return Spatial{p.angular - cross(c, p.linear), p.linear};
+        return force_about(p, c);
     };
     for (std::size_t k = 0; k < 6; ++k) {
         Spatial unit;
@@ -114,7 +116,7 @@ PartJacobian NetParts::add_wrench(int part, const Spatial& wrench, double sign) 
     const std::size_t at = room(part);
     const Part& p = parts_[static_cast<std::size_t>(part)];
     const Vec3& centre = robots_[p.robot]->bodies[static_cast<std::size_t>(p.body)].centre;
-    put(Spatial{wrench.angular - cross(centre, wrench.linear), wrench.linear} * sign, jacobians_.data() + at);
+    put(force_about(wrench, centre) * sign, jacobians_.data() + at);
     return {part, at};
 }
 

@@ -203,34 +203,17 @@ void BlockLdlt::eliminate_panel(const Front& front, std::size_t begin, std::size
     }
 }
 
+/// Large ones with the rows shared by the team.
 void BlockLdlt::factor_front(std::size_t f, const Source& source, std::span<const double> x, double implied,
-                             Buffer& buffer) {
-    start_front(f, source, x);
-    const Front& front = fronts_[f];
-    for (const std::size_t child : pattern_->children_of(pattern_->fronts()[f]))
-        add_child(fronts_[child], front, 0, fronts_[child].size);
-    const FrontKernel& kernel = front_kernel();
-    for (std::size_t begin = 0; begin < front.own; begin += kPanel) {
-        const std::size_t end = std::min(front.own, begin + kPanel);
-        eliminate_panel(front, begin, end, implied, buffer);
-        kernel.subtract(matrix_of(front), front.stride, end, front.size, front.stride,
-                        matrix_of(front) + begin * front.stride, buffer.factors.data(), end - begin);
-    }
-}
-
-/// The same, with the rows shared by all threads.
-void BlockLdlt::factor_top(std::size_t f, const Source& source, std::span<const double> x, double implied,
-                           const Team& team) {
+                             Buffer& buffer, Team team) {
     const Front& front = fronts_[f];
     const double size = static_cast<double>(front.size);
-    if (size * size * static_cast<double>(front.own) < kShareRowsFrom)
-        return factor_front(f, source, x, implied, buffers_[0]);
+    if (size * size * static_cast<double>(front.own) < kShareRowsFrom) team = {};
     start_front(f, source, x);
     const std::size_t chunk = padded(std::max<std::size_t>(front.size / (8 * team.size()), 8));
-    const auto share = [&](std::size_t first, std::size_t last, const auto& work) {
-        team.run((last - first + chunk - 1) / chunk, [&](std::size_t item, std::size_t) {
-            work(first + item * chunk, std::min(last, first + (item + 1) * chunk));
-        });
+    const auto share = [&](std::size_t begin, std::size_t end, const auto& work) {
+        team.run_blocks(end - begin, chunk,
+                        [&](std::size_t first, std::size_t last) { work(begin + first, begin + last); });
     };
     for (const std::size_t child : pattern_->children_of(pattern_->fronts()[f]))
         share(fronts_[child].own, fronts_[child].size,
@@ -238,10 +221,10 @@ void BlockLdlt::factor_top(std::size_t f, const Source& source, std::span<const 
     const FrontKernel& kernel = front_kernel();
     for (std::size_t begin = 0; begin < front.own; begin += kPanel) {
         const std::size_t end = std::min(front.own, begin + kPanel);
-        eliminate_panel(front, begin, end, implied, buffers_[0]);
+        eliminate_panel(front, begin, end, implied, buffer);
         share(end, front.size, [&](std::size_t first, std::size_t last) {
             kernel.subtract(matrix_of(front), front.stride, first, last, front.stride,
-                            matrix_of(front) + begin * front.stride, buffers_[0].factors.data(), end - begin);
+                            matrix_of(front) + begin * front.stride, buffer.factors.data(), end - begin);
         });
     }
 }
@@ -278,9 +261,9 @@ void BlockLdlt::solve(const Source& source, std::span<double> x, double implied,
     };
     team.run(subtrees_.size(), [&](std::size_t item, std::size_t worker) {
         each_of(subtrees_[item],
-                [&](std::size_t f) { factor_front(f, source, x, implied, buffers_[worker]); });
+                [&](std::size_t f) { factor_front(f, source, x, implied, buffers_[worker], {}); });
     });
-    for (const std::size_t f : top_) factor_top(f, source, x, implied, team);
+    for (const std::size_t f : top_) factor_front(f, source, x, implied, buffers_[0], team);
     for (std::size_t i = top_.size(); i-- > 0;) solve_back(top_[i], x, buffers_[0]);
     team.run(subtrees_.size(), [&](std::size_t item, std::size_t worker) {
         const std::size_t root = subtrees_[item];

@@ -70,9 +70,7 @@ class BlockLdlt {
     void start_front(std::size_t f, const Source& source, std::span<const double> x);
     void add_child(const Front& child, const Front& parent, std::size_t first, std::size_t last);
     void factor_front(std::size_t f, const Source& source, std::span<const double> x, double implied,
-                      Buffer& buffer);
-    void factor_top(std::size_t f, const Source& source, std::span<const double> x, double implied,
-                    const Team& team);
+                      Buffer& buffer, Team team);
     void eliminate_panel(const Front& front, std::size_t begin, std::size_t end, double implied,
                          Buffer& buffer);
     void solve_back(std::size_t f, std::span<double> x, Buffer& buffer) const;

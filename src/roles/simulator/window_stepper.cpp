@@ -50,13 +50,6 @@ void WindowStepper::sort_orders(const Assignment& assignment) {
         if (concerns(order)) orders_[next[island_of_[order.robot.index()]]++] = order;
 }
 
-std::size_t WindowStepper::weight(const Assignment& assignment, std::uint32_t island) const {
-    std::size_t sum = 0;
-    for (std::size_t k = assignment.island_offsets[island]; k < assignment.island_offsets[island + 1]; ++k)
-        sum += weight_of(model_->type_of(assignment.robots[k]));
-    return sum;
-}
-
 /// Large islands first; before them, each for itself, those with robots that are as much work as many.
 void WindowStepper::cut_batches(const Assignment& assignment) {
     const std::size_t robots_most = in_lockstep(assignment) ? kLockstepMost + 1 : kRobotsPerBatch;
@@ -66,7 +59,9 @@ void WindowStepper::cut_batches(const Assignment& assignment) {
     sequence_.resize(assignment.island_offsets.size() - 1);
     std::iota(sequence_.begin(), sequence_.end(), 0u);
     weights_.clear();
-    for (std::uint32_t i = 0; i < sequence_.size(); ++i) weights_.push_back(weight(assignment, i));
+    const std::span<const RobotId> robots_of_all = assignment.robots;
+    for (std::uint32_t i = 0; i < sequence_.size(); ++i)
+        weights_.push_back(weight_of(*model_, robots_of_all.subspan(assignment.island_offsets[i], size(i))));
     const auto is_apart = [&](std::uint32_t i) {
         return !in_lockstep(assignment) && weights_[i] > size(i) && weights_[i] >= kTeamFrom;
     };

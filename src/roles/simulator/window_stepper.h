@@ -65,7 +65,6 @@ class WindowStepper {
     void measure(bool wanted);
     void report_profile(WindowResult& result);
     void sort_orders(const Assignment& assignment);
-    std::size_t weight(const Assignment& assignment, std::uint32_t island) const;
     void cut_batches(const Assignment& assignment);
     std::size_t step_large_batches(Job& job);
     void step_batch(Job& job, std::size_t batch, std::size_t worker);
