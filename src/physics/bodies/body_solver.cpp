@@ -18,13 +18,19 @@ constexpr double kBoundsFrom = 1e-2;
 constexpr double kSticking = 0.998;  // of the squared friction bound: beyond, a sweep says that it slides
 constexpr double kRounding = newton::kRounding<double>;
 
-constexpr int kSweepsAlone = 40;        // at most, where no step of Newton's method follows
 constexpr std::size_t kLargePile = 32;  // bodies: from here on sweeps may settle what moves
 
-/// Impulses spread through few bodies a sweep. Twelve sweeps cost about as much as one iteration.
-int most_sweeps(std::size_t bodies) {
-    if (bodies < 8) return 12;
+/// Sweeps from which Newton's method starts. Impulses spread through few bodies a sweep. In a large part
+/// twelve sweeps cost as much as an iteration; in a small one, which leaves lanes empty, three.
+int sweeps_to_start(std::size_t bodies) {
+    if (bodies < 4) return 4;
+    if (bodies < 32) return bodies < 8 ? 8 : bodies < 16 ? 12 : 24;
     return bodies < 64 ? 40 : 80;
+}
+
+/// Where no step of Newton's method follows.
+int sweeps_alone(std::size_t bodies) {
+    return bodies < 8 ? 12 : 40;
 }
 
 }  // namespace
@@ -180,7 +186,7 @@ bool BodySolver::settle_velocities(const Accuracy& accuracy) {
         residual_ = kernel_.balance(island_);
         if (bodies == 1 || residual_ <= newton::kRoughly) return false;
     }
-    const int most = alone ? std::min(most_sweeps(bodies), kSweepsAlone) : most_sweeps(bodies);
+    const int most = alone ? sweeps_alone(bodies) : sweeps_to_start(bodies);
     const bool may_settle = !alone && bodies >= kLargePile;
     const SweepReport report =
         sweep(may_settle ? pile_plan(accuracy, most, bodies) : SweepPlan{.most = most});
