@@ -142,8 +142,8 @@ bool BodySolver::take_first_step() {
 }
 
 /// Velocities and impulses from those that the contacts carried last, and friction bounds to match; for the
-/// displacement from those of the velocities, whose friction bounds stay. Back to the start if they found no
-/// numbers.
+/// displacement from those of the velocities, whose friction bounds stay. Back to the start (keep_start()) if
+/// they found no numbers.
 SweepReport BodySolver::sweep(const SweepPlan& plan) {
     island_.bounds_stay = position_;
     for (BodyPoint& p : island_.points) {
@@ -153,7 +153,6 @@ SweepReport BodySolver::sweep(const SweepPlan& plan) {
         const double bound = p.coefficient * p.f_n, size2 = p.f_1 * p.f_1 + p.f_2 * p.f_2;
         if (size2 > bound * bound) p.f_1 *= bound / std::sqrt(size2), p.f_2 *= bound / std::sqrt(size2);
     }
-    keep_start();
     const SweepReport report = kernel_.sweep(island_, plan);
     double sum = 0;
     for (const FreeBody& body : island_.bodies)
@@ -187,6 +186,7 @@ bool BodySolver::settle_velocities(const Accuracy& accuracy) {
         if (bodies == 1 || residual_ <= newton::kRoughly) return false;
     }
     const int most = alone ? sweeps_alone(bodies) : sweeps_to_start(bodies);
+    keep_start();
     const bool may_settle = !alone && bodies >= kLargePile;
     const SweepReport report =
         sweep(may_settle ? pile_plan(accuracy, most, bodies) : SweepPlan{.most = most});
@@ -196,15 +196,21 @@ bool BodySolver::settle_velocities(const Accuracy& accuracy) {
     return true;
 }
 
-/// Likewise the displacement of a pile.
+/// Likewise the displacement of a pile, with a tighter tolerance where a point is left deep.
 bool BodySolver::settle_displacement(const BodyPart& part) {
-    const SweepPlan plan = pile_plan(part.problem.accuracy, 1, island_.bodies.size());
+    constexpr int kRounds = 3;
+    SweepPlan plan = pile_plan(part.problem.accuracy, 1, island_.bodies.size());
     if (island_.bodies.size() < kLargePile || plan.settle_tolerance == 0 || hardly_moves()) return false;
-    const SweepReport report = sweep(plan);
-    iterations_ += report.iterations();
-    if (report.settled && keeps_apart()) {
-        take_swept();
-        return true;
+    keep_start();
+    for (int round = 0; round < kRounds; ++round) {
+        const SweepReport report = sweep(plan);
+        iterations_ += report.iterations();
+        if (!report.settled) break;
+        if (keeps_apart()) {
+            take_swept();
+            return true;
+        }
+        plan.tighten(1e-2);
     }
     if (swept_) return_to_start();
     swept_ = false;
