@@ -29,8 +29,9 @@ void MinimumDegree::join(int a, int b) {
     insert(near_[static_cast<std::size_t>(b)], a);
 }
 
-void MinimumDegree::eliminate() {
+bool MinimumDegree::eliminate(std::size_t most_pairs) {
     const std::size_t count = position_.size();
+    std::size_t pairs = 0;
     for (std::size_t i = 0; i < count; ++i) {
         degree_[i] = static_cast<int>(near_[i].size());
         queue_.emplace_back(degree_[i], static_cast<int>(i));
@@ -42,6 +43,9 @@ void MinimumDegree::eliminate() {
         queue_.pop_back();
         const auto k = static_cast<std::size_t>(node);
         if (position_[k] < static_cast<int>(count) || degree != degree_[k]) continue;
+        const auto ends = static_cast<std::size_t>(degree);
+        pairs += ends * (ends - std::min<std::size_t>(ends, 1)) / 2;
+        if (pairs > most_pairs) return false;
         position_[k] = static_cast<int>(order_.size());
         order_.push_back(node);
         ends_.insert(ends_.end(), near_[k].begin(), near_[k].end());
@@ -57,6 +61,7 @@ void MinimumDegree::eliminate() {
             std::ranges::push_heap(queue_, std::greater<>{});
         }
     }
+    return true;
 }
 
 }  // namespace roboss

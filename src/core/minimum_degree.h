@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstddef>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -15,8 +16,9 @@ class MinimumDegree {
     void begin(std::size_t count);
     /// Couples two different nodes; once more does nothing.
     void join(int a, int b);
-    /// Orders all nodes.
-    void eliminate();
+    /// Orders all nodes. False, and some are left out, if the pairs of nodes that are coupled to a third one
+    /// when it goes become more than `most_pairs` in all: the work of a factorisation.
+    bool eliminate(std::size_t most_pairs = std::numeric_limits<std::size_t>::max());
 
     /// Nodes as they are eliminated.
     const std::vector<int>& order() const { return order_; }

@@ -19,6 +19,17 @@ TEST(MinimumDegree, APathHasNoFill) {
     EXPECT_EQ(graph.ends().size(), 5U);
 }
 
+/// Five nodes that are all coupled: 6 + 3 + 1 pairs.
+TEST(MinimumDegree, GivesUpWhereTheFactorFillsUp) {
+    MinimumDegree graph;
+    for (const std::size_t most : {9U, 10U}) {
+        graph.begin(5);
+        for (int i = 0; i < 5; ++i)
+            for (int k = 0; k < i; ++k) graph.join(i, k);
+        EXPECT_EQ(graph.eliminate(most), most == 10);
+    }
+}
+
 /// Against elimination on sets, node by node.
 TEST(MinimumDegree, FillIsThatOfTheElimination) {
     std::mt19937 random(7);

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstddef>
+#include <limits>
 #include <vector>
 
 #include "core/minimum_degree.h"
@@ -46,8 +47,10 @@ struct BodyPoint {
 /// eliminated after it and are coupled to it by then; they are numbered body by body, as eliminated.
 class BodyOrder {
   public:
-    /// Orders by minimum degree, and gives the points their edges.
-    void analyse(std::size_t bodies, std::vector<BodyPoint>& points);
+    /// Orders by minimum degree, and gives the points their edges. False, and nothing is known, if there
+    /// would be more than `most_updates`.
+    bool analyse(std::size_t bodies, std::vector<BodyPoint>& points,
+                 std::size_t most_updates = std::numeric_limits<std::size_t>::max());
 
     struct Pivot {
         int body = 0;

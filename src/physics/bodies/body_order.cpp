@@ -23,11 +23,11 @@ void PointEnds::sort(std::size_t bodies, const std::vector<BodyPoint>& points) {
     }
 }
 
-void BodyOrder::analyse(std::size_t bodies, std::vector<BodyPoint>& points) {
+bool BodyOrder::analyse(std::size_t bodies, std::vector<BodyPoint>& points, std::size_t most_updates) {
     elimination_.begin(bodies);
     for (const BodyPoint& point : points)
         if (point.b >= 0) elimination_.join(point.a, point.b);
-    elimination_.eliminate();
+    if (!elimination_.eliminate(most_updates)) return false;
     for (BodyPoint& point : points) {
         if (point.b < 0) continue;
         point.b_first = goes_first(point.b, point.a);
@@ -44,6 +44,7 @@ void BodyOrder::analyse(std::size_t bodies, std::vector<BodyPoint>& points) {
                 updates_.push_back({j_first ? edge_of(b, a) : edge_of(a, b), j_first});
             }
     }
+    return true;
 }
 
 bool BodyOrder::goes_first(int a, int b) const {

@@ -18,7 +18,9 @@ constexpr double kBoundsFrom = 1e-2;
 constexpr double kSticking = 0.998;  // of the squared friction bound: beyond, a sweep says that it slides
 constexpr double kRounding = newton::kRounding<double>;
 
-constexpr std::size_t kLargePile = 32;  // bodies: from here on sweeps may settle what moves
+constexpr std::size_t kPile = 32;  // bodies: from here on sweeps may settle what moves
+constexpr std::size_t kLargePile =
+    256;  // bodies: from here on they may settle what rests, and have the last word
 
 /// Sweeps from which Newton's method starts. Impulses spread through few bodies a sweep. In a large part
 /// twelve sweeps cost as much as an iteration; in a small one, which leaves lanes empty, three.
@@ -39,8 +41,9 @@ bool BodySolver::solve(const BodyPart& part, std::vector<double>& v, SolveReport
     const Accuracy& accuracy = part.problem.accuracy;
     island_.team = team;
     position_ = part.problem.position;
-    iterations_ = 0, swept_ = false;
+    iterations_ = 0, swept_ = analysed_ = false;
     take(part, v);
+    fills_up_ = find_fill();
     bool balances = position_ ? settle_displacement(part) : settle_velocities(accuracy);
     if (!balances) {
         prepare_factor();
@@ -104,13 +107,24 @@ void BodySolver::take(const BodyPart& part, const std::vector<double>& v) {
 /// The matrix of Newton's method, with no contact in it yet.
 void BodySolver::prepare_factor() {
     BodyIsland& s = island_;
-    s.order.analyse(s.bodies.size(), s.points);
+    if (!analysed_) s.order.analyse(s.bodies.size(), s.points);
+    analysed_ = true;
     if (s.team.size() > 1) s.tasks.plan(s.order, s.team.size());
     s.kept_diagonal.resize(s.bodies.size()), s.diagonal.resize(s.bodies.size());
     s.pivot_factors.resize(s.bodies.size());
     for (std::size_t b = 0; b < s.bodies.size(); ++b) s.kept_diagonal[b] = s.bodies[b].mass;
     s.kept_upper.assign(s.order.edges(), SixBlock{});
     s.upper.resize(s.order.edges()), s.lower.resize(s.order.edges());
+}
+
+/// True where each iteration of Newton's method would take as long as many sweeps: the factor of a deep pile
+/// fills up, that of a stack or of a low wall does not.
+bool BodySolver::find_fill() {
+    constexpr std::size_t kLargePile = 256, kMostUpdates = 100;  // bodies; updates of blocks, by body
+    const std::size_t bodies = island_.bodies.size();
+    if (bodies < kLargePile) return false;
+    analysed_ = island_.order.analyse(bodies, island_.points, kMostUpdates * bodies);
+    return !analysed_;
 }
 
 void BodySolver::keep_start() {
@@ -187,10 +201,10 @@ bool BodySolver::settle_velocities(const Accuracy& accuracy) {
     }
     const int most = alone ? sweeps_alone(bodies) : sweeps_to_start(bodies);
     keep_start();
-    const bool may_settle = !alone && bodies >= kLargePile;
+    const bool may_settle = !alone && bodies >= kPile;
     const SweepReport report =
-        sweep(may_settle ? pile_plan(accuracy, most, bodies) : SweepPlan{.most = most});
-    if (!swept_ || (!report.settled && !alone)) return false;
+        sweep(may_settle ? pile_plan(accuracy, most, fills_up_) : SweepPlan{.most = most});
+    if (!swept_ || !(alone || report.settled || (may_settle && fills_up_))) return false;
     take_swept();
     iterations_ += report.iterations();
     return true;
@@ -199,18 +213,24 @@ bool BodySolver::settle_velocities(const Accuracy& accuracy) {
 /// Likewise the displacement of a pile, with a tighter tolerance where a point is left deep.
 bool BodySolver::settle_displacement(const BodyPart& part) {
     constexpr int kRounds = 3;
-    SweepPlan plan = pile_plan(part.problem.accuracy, 1, island_.bodies.size());
-    if (island_.bodies.size() < kLargePile || plan.settle_tolerance == 0 || hardly_moves()) return false;
+    SweepPlan plan = pile_plan(part.problem.accuracy, 1, fills_up_);
+    if (island_.bodies.size() < kPile || plan.settle_tolerance == 0) return false;
+    if (!fills_up_ && hardly_moves()) return false;
     keep_start();
-    for (int round = 0; round < kRounds; ++round) {
+    bool settled = true;
+    for (int round = 0; round < kRounds && settled; ++round) {
         const SweepReport report = sweep(plan);
         iterations_ += report.iterations();
-        if (!report.settled) break;
-        if (keeps_apart()) {
+        settled = report.settled;
+        if (settled && keeps_apart()) {
             take_swept();
             return true;
         }
         plan.tighten(1e-2);
+    }
+    if (swept_ && fills_up_) {
+        take_swept();
+        return true;
     }
     if (swept_) return_to_start();
     swept_ = false;

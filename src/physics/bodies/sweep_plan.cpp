@@ -19,7 +19,7 @@ void SweepProgress::begin(double impulses, double motion) {
 bool SweepProgress::ends(double change) {
     ++report_.sweeps;
     const bool is_last = report_.sweeps >= most_;
-    report_.settled = moves_ && change <= (is_last ? plan_.at_last : 1) * enough_;
+    report_.settled = (moves_ || plan_.rest_settles) && change <= enough_;
     if (change <= enough_ || is_last || !std::isfinite(change)) return true;
     share_ = report_.sweeps > 1 && change <= last_ ? change / last_ : 0;
     last_ = change;

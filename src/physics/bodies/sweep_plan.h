@@ -13,14 +13,14 @@
 namespace roboss {
 
 struct SweepPlan {
-    // A part at rest. Newton's method starts from what the sweeps found.
+    // A part at rest.
     int most = 0;                   // sweeps
     double start_tolerance = 1e-8;  // they end at this change / impulses
+    bool rest_settles = false;      // what reaches it is the solution; else Newton's method starts from there
     // A part that moves. What the sweeps found is the solution if they reach the tolerance.
     int most_to_settle = 0;       // sweeps
     double settle_tolerance = 0;  // change / motion; 0: always as at rest
     double least = 1e-9;          // of the tolerance times motion / impulses: below, the part is at rest
-    double at_last = 1;           // times the tolerance: what counts as settled after the last sweep
 
     /// For sweeps that go on from what others settled.
     void tighten(double factor) { settle_tolerance *= factor, least *= factor; }
@@ -36,14 +36,14 @@ struct SweepReport {
 /// The plan for a pile: to settle where the accuracy leaves that to sweeps, as in `standard`. They miss the
 /// velocities by about a thousandth of how fast the contact points move (root mean square).
 ///
-/// In a large pile impulses need more sweeps to spread. One that jams is taken with up to thirty times that
-/// error: Newton's method would find its solution in seconds (2000 bodies), for its factor fills up.
-inline SweepPlan pile_plan(const Accuracy& accuracy, int most, std::size_t bodies) {
-    constexpr std::size_t kLarge = 512;  // bodies
+/// `fills_up`: Newton's method would take far longer than sweeps. Then they may settle what rests, too.
+inline SweepPlan pile_plan(const Accuracy& accuracy, int most, bool fills_up) {
     SweepPlan plan{.most = most};
     if (!(accuracy.tolerance >= 1e-9)) return plan;
     plan.settle_tolerance = 1e-7, plan.most_to_settle = 300;
-    if (bodies >= kLarge) plan.most_to_settle = 600, plan.at_last = 1000;
+    if (!fills_up) return plan;
+    plan.most_to_settle = 200;
+    plan.most = 100, plan.start_tolerance = 1e-12, plan.rest_settles = true;
     return plan;
 }
 

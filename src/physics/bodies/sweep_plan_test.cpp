@@ -41,23 +41,30 @@ TEST(SweepProgress, SomethingFastDoesNotLoosenWhatRestsBesideIt) {
     EXPECT_TRUE(progress.report().settled);
 }
 
-TEST(SweepProgress, WhatALargePileMissesAtLastIsTaken) {
-    SweepPlan plan = kPlan;
-    plan.most_to_settle = 2, plan.at_last = 100;
+TEST(SweepProgress, AtRestALargePartSettlesATighterTolerance) {
+    const SweepPlan plan = pile_plan({}, 80, true);
+    ASSERT_TRUE(plan.rest_settles);
     SweepProgress progress(plan);
-    progress.begin(1, 2);
-    EXPECT_FALSE(progress.ends(1.9e-5));
-    EXPECT_FALSE(progress.report().settled);
-    EXPECT_TRUE(progress.ends(1.9e-5));
+    progress.begin(1, 0);
+    EXPECT_FALSE(progress.ends(1e-9));
+    EXPECT_TRUE(progress.ends(0.9e-12));
     EXPECT_TRUE(progress.report().settled);
     SweepProgress fails(plan);
-    fails.begin(1, 2);
-    EXPECT_FALSE(fails.ends(1.9e-5));
-    EXPECT_TRUE(fails.ends(2.1e-5));
+    fails.begin(1, 0);
+    for (int i = 1; i < plan.most; ++i) EXPECT_FALSE(fails.ends(1e-9));
+    EXPECT_TRUE(fails.ends(1e-9));
     EXPECT_FALSE(fails.report().settled);
-    const Accuracy standard;
-    EXPECT_EQ(pile_plan(standard, 80, 511).at_last, 1);
-    EXPECT_GT(pile_plan(standard, 80, 512).at_last, 1);
+    EXPECT_FALSE(pile_plan({}, 80, false).rest_settles);
+}
+
+TEST(SweepProgress, ATightenedPlanGoesOn) {
+    SweepPlan plan = kPlan;
+    plan.tighten(1e-2);
+    SweepProgress progress(plan);
+    progress.begin(1, 2);
+    EXPECT_FALSE(progress.ends(3e-9));
+    EXPECT_TRUE(progress.ends(1.9e-9));
+    EXPECT_TRUE(progress.report().settled);
 }
 
 TEST(SweepProgress, WhatIsNoNumberEndsThem) {
