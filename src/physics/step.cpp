@@ -220,8 +220,8 @@ void step_in_lanes(const StepCall& call, std::vector<std::uint32_t>& batch, std:
     share_effort(kept, call.report.iterations - before, s.efforts);
 }
 
-/// A robot that leaned on something beside the ground in the last tick mostly still does, and then no register
-/// has its contacts. In floats it tries all the same: how a robot is stepped must hang on it alone.
+/// A robot that leaned on something beside the ground in the last tick mostly still does, and then no
+/// register has its contacts. In floats it tries all the same: how a robot is stepped must hang on it alone.
 bool suits_lanes(const GroupScratch& group, const RobotType& type, const RobotState& state) {
     const auto is_elsewhere = [&](const ContactMemory& contact) {
         return contact.other_shape != state.contacts[0].other_shape;

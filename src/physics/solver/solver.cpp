@@ -16,8 +16,8 @@ constexpr newton::Plan kPilePlan{
 /// Robots that lean on each other: coupled steps begin early, and are shortened.
 constexpr newton::Plan kCrowdPlan{.couple_from = 1e-2, .halvings = 3, .progress = 0.3};
 
-/// Where Newton's method would turn one row after the other. Motors hold few robots apart from a pile: most of
-/// their wheels and feet do what they did in the last tick.
+/// Where Newton's method would turn one row after the other. Motors hold few robots apart from a pile: most
+/// of their wheels and feet do what they did in the last tick.
 bool is_pile(const IslandSolver::Problem& p) {
     const auto is_motor = [](const JointRow& row) { return row.motor != nullptr; };
     const bool is_driven = std::ranges::any_of(p.rows.joints, is_motor);
