@@ -84,6 +84,10 @@ void add_compliance(const Wheel& wheel, const Vec3& normal, SurfacePair& pair) {
 }  // namespace
 
 void add_slip(std::span<const RobotWork> robots, const Contact& contact, SurfacePair& pair) {
+    const auto slips = [&](int robot) {
+        return robot >= 0 && robots[static_cast<std::size_t>(robot)].type->has_slip;
+    };
+    if (!slips(contact.robot_a) && !slips(contact.robot_b)) return;
     const auto a = wheel_at(robots, contact.robot_a, contact.shape_a, contact.normal);
     const auto b = wheel_at(robots, contact.robot_b, contact.shape_b, contact.normal);
     for (const auto& wheel : {a, b})

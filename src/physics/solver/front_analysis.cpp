@@ -10,9 +10,18 @@
 
 namespace roboss {
 
+bool FrontFactor::knows(std::span<const int> group_first, std::span<const int> heads,
+                        std::span<const int> unknowns, std::span<const Clique> cliques) const {
+    return std::ranges::equal(group_first, group_first_) && std::ranges::equal(heads, heads_) &&
+           std::ranges::equal(unknowns, unknowns_) && std::ranges::equal(cliques, cliques_);
+}
+
 void FrontFactor::analyse(std::span<const int> group_first, std::span<const int> heads,
                           std::span<const int> unknowns, std::span<const Clique> cliques) {
+    if (knows(group_first, heads, unknowns, cliques)) return;
     groups_ = group_first.size() - 1;
+    unknowns_.assign(unknowns.begin(), unknowns.end());
+    cliques_.assign(cliques.begin(), cliques.end());
     group_first_.assign(group_first.begin(), group_first.end());
     heads_.assign(heads.begin(), heads.end());
     const auto n = static_cast<std::size_t>(group_first.back());

@@ -24,6 +24,7 @@ class FrontFactor {
     /// Unknowns that a row couples: [first, last) of the list handed to analyse.
     struct Clique {
         std::size_t first = 0, last = 0;
+        bool operator==(const Clique&) const = default;
     };
 
     /// Unknowns of a clique that stand side by side in its front, in both orders.
@@ -43,9 +44,13 @@ class FrontFactor {
     };
 
     /// Group g holds the unknowns group_first[g] .. group_first[g + 1] - 1, of which the first heads[g] are
-    /// coupled to all of it, as those of a free base are. A clique touches at most two groups.
+    /// coupled to all of it, as those of a free base are. A clique touches at most two groups. Costs nothing
+    /// where the question is that of the last call.
     void analyse(std::span<const int> group_first, std::span<const int> heads, std::span<const int> unknowns,
                  std::span<const Clique> cliques);
+    /// Whether analyse() was last asked this.
+    bool knows(std::span<const int> group_first, std::span<const int> heads, std::span<const int> unknowns,
+               std::span<const Clique> cliques) const;
 
     /// All entries to zero.
     void clear();
@@ -95,6 +100,8 @@ class FrontFactor {
     std::size_t groups_ = 0;
     bool symmetric_ = true;
     std::vector<int> group_first_, heads_, group_of_;  // of the groups, twice; of the unknowns
+    std::vector<int> unknowns_;                        // as analysed
+    std::vector<Clique> cliques_;                      // likewise
     std::vector<std::pair<int, int>> links_;           // groups that a clique couples
     MinimumDegree large_;                              // order of many groups
     std::vector<int> order_, position_;                // groups as eliminated; and back

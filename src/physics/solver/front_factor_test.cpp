@@ -35,7 +35,7 @@ struct Example {
     void fill(std::mt19937& random, bool symmetric) {
         n = static_cast<std::size_t>(first.back());
         dense.assign(n * n, 0.0);
-        for (std::size_t g = 0; g + 1 < first.size(); ++g)
+        for (std::size_t g = heads.size(); g + 1 < first.size(); ++g)
             heads.push_back(random() % 2 == 0 ? 0 : (first[g + 1] - first[g]) / 2);
         fronts.analyse(first, heads, unknowns, cliques);
         fronts.clear();
@@ -138,6 +138,30 @@ TEST(FrontFactor, AReusedFactorGivesTheBitsOfAFreshOne) {
     solve(reused, 1), solve(reused, 2);
     FrontFactor fresh;
     EXPECT_EQ(solve(reused, 3), solve(fresh, 3));
+}
+
+TEST(FrontFactor, AKnownPatternWithOtherNumbersGivesTheBitsOfAFreshOne) {
+    Example e;
+    e.heads = {6, 0, 6};
+    for (int g = 0; g < 3; ++g) e.first.push_back(e.first.back() + 8);
+    std::mt19937 pattern(1);
+    for (int g = 0; g < 2; ++g) e.add_clique(pattern, g, g + 1);
+    const auto solve = [&](FrontFactor& fronts, unsigned numbers) {
+        std::mt19937 random(numbers);
+        Example other = e;
+        std::swap(other.fronts, fronts);
+        other.fill(random, true);
+        std::vector<double> x(other.n, 1.0);
+        EXPECT_TRUE(other.fronts.solve(x));
+        std::swap(other.fronts, fronts);
+        return x;
+    };
+    FrontFactor known, fresh;
+    solve(known, 1);
+    EXPECT_TRUE(known.knows(e.first, e.heads, e.unknowns, e.cliques));
+    EXPECT_EQ(solve(known, 2), solve(fresh, 2));
+    const std::vector<int> other_heads{0, 0, 6};
+    EXPECT_FALSE(known.knows(e.first, other_heads, e.unknowns, e.cliques));
 }
 
 }  // namespace

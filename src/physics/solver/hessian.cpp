@@ -58,7 +58,21 @@ void Hessian::start_fronts(const IslandRows& rows) {
     for (const AngularRow& row : rows.angulars) add(contact_dof, row.first, row.last);
     const auto coupling_dof = [&](std::size_t c) { return rows.coupling_columns[c].dof; };
     for (const CouplingRow& row : rows.couplings) add(coupling_dof, row.first, row.last);
-    fronts_.analyse(group_first_, heads_, unknowns_, cliques_);
+    choose_fronts();
+    fronts().analyse(group_first_, heads_, unknowns_, cliques_);
+}
+
+/// Those that know the answer, else those that were analysed longest ago.
+void Hessian::choose_fronts() {
+    kept_ = 0;
+    if (n_ > kSmall) return;
+    for (std::size_t k = 1; k < kKept; ++k) {
+        if (!fronts_[k].knows(group_first_, heads_, unknowns_, cliques_)) continue;
+        kept_ = k;
+        return;
+    }
+    kept_ = oldest_;
+    oldest_ = oldest_ + 1 == kKept ? 1 : oldest_ + 1;
 }
 
 /// Whether the unknowns from `begin` on are those of the last clique.
@@ -72,14 +86,14 @@ void Hessian::assemble(IslandRows& rows, bool coupled, double lack) {
     if (form_ == Form::kTree) return tree_.assemble(rows, coupled, lack);
     if (form_ == Form::kNet) return net_.assemble(rows);
     add_changes(rows, lack);
-    fronts_.begin_factor(!coupled);
+    fronts().begin_factor(!coupled);
     if (coupled) add_slides(rows);
 }
 
 void Hessian::add_mass() {
-    fronts_.clear();
+    fronts().clear();
     for (std::size_t r = 0; r < robots_.size(); ++r)
-        fronts_.add(r, robots_[r]->type->paths, robots_[r]->mass_matrix);
+        fronts().add(r, robots_[r]->type->paths, robots_[r]->mass_matrix);
 }
 
 void Hessian::add_changes(IslandRows& rows, double lack) {
@@ -88,7 +102,7 @@ void Hessian::add_changes(IslandRows& rows, double lack) {
         const double change = row.d - row.d_held;
         row.d_held = row.d;
         while (row.dof >= group_first_[robot + 1]) ++robot;
-        fronts_.add(robot, row.dof, change);
+        fronts().add(robot, row.dof, change);
     }
     const std::size_t* clique = clique_of_.data();
     const auto add = [&](std::size_t first, std::size_t last, BoundedRow& normal, FrictionDisc& disc) {
@@ -106,7 +120,7 @@ void Hessian::add_block(const ContactColumns& columns, std::size_t first, std::s
                         const CurvatureChange<double>& d) {
     const double *cn = columns.n.data() + first, *c1 = columns.t1.data() + first,
                  *c2 = columns.t2.data() + first;
-    const FrontFactor::Place place = fronts_.place(clique);
+    const FrontFactor::Place place = fronts().place(clique);
     for (std::size_t r = 0; r < place.runs.size(); ++r) {
         for (std::size_t k = 0; k < place.runs[r].count; ++k) {
             const std::size_t a = place.runs[r].first + k;
@@ -123,7 +137,7 @@ void Hessian::add_coupling(const IslandRows& rows, CouplingRow& row, std::size_t
     const double change = row.d - row.d_held;
     row.d_held = row.d;
     if (row.first == row.last || change == 0) return;
-    const FrontFactor::Place place = fronts_.place(clique);
+    const FrontFactor::Place place = fronts().place(clique);
     const CouplingColumn* columns = rows.coupling_columns.data() + row.first;
     const std::size_t count = row.last - row.first;
     for (std::size_t a = 0; a < count; ++a) {
@@ -145,7 +159,7 @@ void Hessian::add_slides(const IslandRows& rows) {
         if (row.first == row.last || (disc.d_1n == 0 && disc.d_2n == 0)) continue;
         const double *cn = rows.columns.n.data() + row.first, *c1 = rows.columns.t1.data() + row.first,
                      *c2 = rows.columns.t2.data() + row.first;
-        const FrontFactor::Place place = fronts_.unsymmetric_place(clique_of_[c]);
+        const FrontFactor::Place place = fronts().unsymmetric_place(clique_of_[c]);
         for (const FrontFactor::Run& along : place.runs) {
             for (std::size_t k = 0; k < along.count; ++k) {
                 const std::size_t a = along.first + k;
@@ -161,7 +175,7 @@ void Hessian::add_slides(const IslandRows& rows) {
 bool Hessian::solve(std::vector<double>& x) {
     if (form_ == Form::kTree) return tree_.solve(x);
     if (form_ == Form::kNet) return net_.solve(x, team_), true;
-    return fronts_.solve(x);
+    return fronts().solve(x);
 }
 
 }  // namespace roboss

@@ -3,6 +3,7 @@
 // have many loops (net_hessian.h).
 #pragma once
 
+#include <array>
 #include <span>
 #include <vector>
 
@@ -32,6 +33,7 @@ class Hessian {
 
   private:
     void start_fronts(const IslandRows& rows);
+    void choose_fronts();
     bool is_last_clique(std::size_t begin) const;
     void add_mass();
     void add_changes(IslandRows& rows, double lack);
@@ -47,7 +49,11 @@ class Hessian {
     TreeHessian<double> tree_;
     NetHessian net_;
     Team team_;
-    FrontFactor fronts_;
+    FrontFactor& fronts() { return fronts_[kept_]; }
+    // Small parts come again, tick by tick, so a few analyses are kept; large ones have the first.
+    static constexpr std::size_t kKept = 8, kSmall = 64;  // fronts, unknowns
+    std::array<FrontFactor, kKept> fronts_;
+    std::size_t kept_ = 0, oldest_ = 1;
     std::vector<int> group_first_, heads_, unknowns_;
     std::vector<FrontFactor::Clique> cliques_;
     std::vector<std::size_t> clique_of_;  // contacts, angulars, couplings, in this order

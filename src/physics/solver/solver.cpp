@@ -1,18 +1,33 @@
 // See solver.h.
 #include "physics/solver/solver.h"
 
+#include <algorithm>
+
 #include "physics/solver/sweeps_alone.h"
 
 namespace roboss {
 namespace {
 
-constexpr std::size_t kPile = 4;  // robots
+constexpr std::size_t kPile = 4;        // robots
+constexpr std::size_t kDrivenPile = 9;  // robots with motors
 constexpr newton::Plan kPilePlan{
     .couple_from = 1e-2, .far_max = 30, .coupled_steps = 12, .halvings = 3, .progress = 0.3, .checks = 10};
 
-/// Where Newton's method would turn one row after the other.
+/// Robots that lean on each other: coupled steps begin early, and are shortened.
+constexpr newton::Plan kCrowdPlan{.couple_from = 1e-2, .halvings = 3, .progress = 0.3};
+
+/// Where Newton's method would turn one row after the other. Motors hold few robots apart from a pile: most
+/// of their wheels and feet do what they did in the last tick.
 bool is_pile(const IslandSolver::Problem& p) {
-    return p.robots.size() >= kPile && !p.rows.contacts.empty();
+    const auto is_motor = [](const JointRow& row) { return row.motor != nullptr; };
+    const bool is_driven = std::ranges::any_of(p.rows.joints, is_motor);
+    return p.robots.size() >= (is_driven ? kDrivenPile : kPile) && !p.rows.contacts.empty();
+}
+
+const newton::Plan& plan_of(const IslandSolver::Problem& p) {
+    static constexpr newton::Plan kAlone;
+    if (is_pile(p)) return kPilePlan;
+    return p.robots.size() > 1 ? kCrowdPlan : kAlone;
 }
 
 }  // namespace
@@ -24,7 +39,7 @@ bool is_pile(const IslandSolver::Problem& p) {
 void IslandSolver::solve_any(const Problem& p, std::vector<double>& v, Report& report) {
     Lockstep<double> alone;
     const bool piled = is_pile(p);
-    plan_ = piled ? kPilePlan : newton::Plan{};
+    plan_ = plan_of(p);
     start(p, v);
     friction::keep_bounds(p.rows, start_bounds_);
     if (piled && !p.position && p.rows.couplings.empty() && sweeps_suffice(p.accuracy))
