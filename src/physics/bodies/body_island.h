@@ -136,9 +136,9 @@ struct BodyIsland {
     PairBatches pairs;
     std::vector<PointSlot> slots;
     std::vector<SixBlock> whitening;  // by body: L^-1 of its mass matrix L L^T, column by column
-    std::vector<Six> swept;           // by body, and two that never move: L^T v
-    std::vector<Six> swept_before, swept_direction;  // before the last sweep; search direction
-    std::vector<Eight> slot_terms;                   // for a team: of the squared change, by slot
+    std::vector<SixFloats> swept;     // by body, and two that never move: y of body_pairs.h
+    std::vector<SixFloats> swept_before, swept_direction;  // before the last sweep; search direction
+    std::vector<Eight> slot_terms;                         // for a team: of the squared change, by slot
 };
 
 }  // namespace roboss

@@ -30,7 +30,9 @@ class BodyKernel {
     /// The potential's derivative along the step at the present velocities, and `fraction` steps beyond.
     virtual double slope(const BodyIsland& island) const = 0;
     virtual double slope_beyond(BodyIsland& island, double fraction) const = 0;
-    /// Gauss-Seidel sweeps from the impulses f_n, f_1, f_2; v and swept_n, swept_1, swept_2 are the result.
+    /// Gauss-Seidel sweeps from the impulses f_n, f_1, f_2 at the velocities that take_velocities() took. The
+    /// result are swept_n, swept_1, swept_2, also in f_n, f_1, f_2, and v, of which momentum balances to
+    /// rounding; what follows from v is not set.
     virtual SweepReport sweep(BodyIsland& island, const SweepPlan& plan) const = 0;
 };
 

@@ -87,7 +87,7 @@ void make_room_for_sweeps(BodyIsland& island) {
     const std::size_t bodies = island.bodies.size();
     island.pairs.arrange(bodies, island.points);
     island.whitening.resize(bodies), island.swept_before.resize(bodies);
-    island.swept.assign(bodies + 2, Six{}), island.swept_direction.assign(bodies, Six{});
+    island.swept.assign(bodies + 2, {}), island.swept_direction.assign(bodies, {});
     island.slots.resize(island.pairs.slots());
     std::memset(static_cast<void*>(island.slots.data()), 0, island.slots.size() * sizeof(PointSlot));
     if (island.team.size() == 1) return;

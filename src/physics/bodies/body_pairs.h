@@ -14,12 +14,13 @@ struct BodyPoint;
 struct BodyIsland;
 
 /// Numbers of eight pairs.
-struct alignas(64) Eight {
-    double x[8] = {};
+struct alignas(32) Eight {
+    float x[8] = {};
 };
 
 /// One contact point of each of eight pairs; where a pair has none, all is zero. Jacobians are those of the
-/// velocities y = L^T v, with L L^T the mass matrix: what an impulse f does to y is J^T f.
+/// velocities y = L^T (v - v0), with L L^T the mass matrix and v0 where the solve starts: what an impulse f
+/// does to y is J^T f. Targets are relative to v0, too. So single precision serves: it rounds changes only.
 struct PointSlot {
     Eight n_a[6], t1_a[6], t2_a[6], n_b[6], t1_b[6], t2_b[6];
     Eight target_n, target_1, target_2;

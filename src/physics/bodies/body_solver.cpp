@@ -18,13 +18,19 @@ constexpr double kBoundsFrom = 1e-2;
 constexpr double kSticking = 0.998;  // of the squared friction bound: beyond, a sweep says that it slides
 constexpr double kRounding = newton::kRounding<double>;
 
-constexpr int kSweepsAlone = 40;        // at most, where no step of Newton's method follows
 constexpr std::size_t kLargePile = 32;  // bodies: from here on sweeps may settle what moves
 
-/// Impulses spread through few bodies a sweep. Twelve sweeps cost about as much as one iteration.
-int most_sweeps(std::size_t bodies) {
-    if (bodies < 8) return 12;
+/// Sweeps from which Newton's method starts. Impulses spread through few bodies a sweep. In a large part
+/// twelve sweeps cost as much as an iteration; in a small one, which leaves lanes empty, three.
+int sweeps_to_start(std::size_t bodies) {
+    if (bodies < 4) return 4;
+    if (bodies < 32) return bodies < 8 ? 8 : bodies < 16 ? 12 : 24;
     return bodies < 64 ? 40 : 80;
+}
+
+/// Where no step of Newton's method follows.
+int sweeps_alone(std::size_t bodies) {
+    return bodies < 8 ? 12 : 40;
 }
 
 }  // namespace
@@ -136,8 +142,8 @@ bool BodySolver::take_first_step() {
 }
 
 /// Velocities and impulses from those that the contacts carried last, and friction bounds to match; for the
-/// displacement from those of the velocities, whose friction bounds stay. Back to the start if they found no
-/// numbers.
+/// displacement from those of the velocities, whose friction bounds stay. Back to the start (keep_start()) if
+/// they found no numbers.
 SweepReport BodySolver::sweep(const SweepPlan& plan) {
     island_.bounds_stay = position_;
     for (BodyPoint& p : island_.points) {
@@ -147,7 +153,6 @@ SweepReport BodySolver::sweep(const SweepPlan& plan) {
         const double bound = p.coefficient * p.f_n, size2 = p.f_1 * p.f_1 + p.f_2 * p.f_2;
         if (size2 > bound * bound) p.f_1 *= bound / std::sqrt(size2), p.f_2 *= bound / std::sqrt(size2);
     }
-    keep_start();
     const SweepReport report = kernel_.sweep(island_, plan);
     double sum = 0;
     for (const FreeBody& body : island_.bodies)
@@ -180,7 +185,8 @@ bool BodySolver::settle_velocities(const Accuracy& accuracy) {
         residual_ = kernel_.balance(island_);
         if (bodies == 1 || residual_ <= newton::kRoughly) return false;
     }
-    const int most = alone ? std::min(most_sweeps(bodies), kSweepsAlone) : most_sweeps(bodies);
+    const int most = alone ? sweeps_alone(bodies) : sweeps_to_start(bodies);
+    keep_start();
     const bool may_settle = !alone && bodies >= kLargePile;
     const SweepReport report =
         sweep(may_settle ? pile_plan(accuracy, most, bodies) : SweepPlan{.most = most});
@@ -190,15 +196,21 @@ bool BodySolver::settle_velocities(const Accuracy& accuracy) {
     return true;
 }
 
-/// Likewise the displacement of a pile.
+/// Likewise the displacement of a pile, with a tighter tolerance where a point is left deep.
 bool BodySolver::settle_displacement(const BodyPart& part) {
-    const SweepPlan plan = pile_plan(part.problem.accuracy, 1, island_.bodies.size());
+    constexpr int kRounds = 3;
+    SweepPlan plan = pile_plan(part.problem.accuracy, 1, island_.bodies.size());
     if (island_.bodies.size() < kLargePile || plan.settle_tolerance == 0 || hardly_moves()) return false;
-    const SweepReport report = sweep(plan);
-    iterations_ += report.iterations();
-    if (report.settled && keeps_apart()) {
-        take_swept();
-        return true;
+    keep_start();
+    for (int round = 0; round < kRounds; ++round) {
+        const SweepReport report = sweep(plan);
+        iterations_ += report.iterations();
+        if (!report.settled) break;
+        if (keeps_apart()) {
+            take_swept();
+            return true;
+        }
+        plan.tighten(1e-2);
     }
     if (swept_) return_to_start();
     swept_ = false;

@@ -8,6 +8,11 @@ struct alignas(64) Six {
     double x[8] = {};
 };
 
+/// The same in single precision.
+struct alignas(32) SixFloats {
+    float x[8] = {};
+};
+
 struct SixBlock {
     Six row[6];
 };

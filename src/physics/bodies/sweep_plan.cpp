@@ -9,9 +9,9 @@ namespace roboss {
 void SweepProgress::begin(double impulses, double motion) {
     // Of what settles, relative to the impulses: less is left to Newton's method, more is not taken, for what
     // rests beside something fast is to carry its load.
-    constexpr double kLeast = 1e-9, kMost = 1e-6;
+    constexpr double kMost = 1e-6;
     const double enough = plan_.settle_tolerance * motion;
-    moves_ = enough > kLeast * impulses;
+    moves_ = enough > plan_.least * impulses;
     most_ = moves_ ? plan_.most_to_settle : plan_.most;
     enough_ = moves_ ? std::min(enough, kMost * impulses) : plan_.start_tolerance * impulses;
 }

@@ -19,7 +19,11 @@ struct SweepPlan {
     // A part that moves. What the sweeps found is the solution if they reach the tolerance.
     int most_to_settle = 0;       // sweeps
     double settle_tolerance = 0;  // change / motion; 0: always as at rest
+    double least = 1e-9;          // of the tolerance times motion / impulses: below, the part is at rest
     double at_last = 1;           // times the tolerance: what counts as settled after the last sweep
+
+    /// For sweeps that go on from what others settled.
+    void tighten(double factor) { settle_tolerance *= factor, least *= factor; }
 };
 
 struct SweepReport {

@@ -131,15 +131,6 @@ const Method& method_of(const RobotType& type) {
     return type.dofs.empty() || is_net(type) ? kClassical : kButcher;
 }
 
-/// The number of parts of a tick: no body turns further in one than the method follows to a millionth.
-/// In a net, which others hold, a body that turns fast swings to and fro: less exact will do.
-int parts_of_tick(const RobotType& type, double fastest, double dt) {
-    constexpr double kTurnOfBody = 0.1, kTurnOfTree = 0.25, kTurnOfNet = 0.16;  // rad
-    constexpr double kPartsMax = 64;
-    const double turn = type.dofs.empty() ? kTurnOfBody : is_net(type) ? kTurnOfNet : kTurnOfTree;
-    return static_cast<int>(std::ceil(std::clamp(std::sqrt(fastest) * dt / turn, 1.0, kPartsMax)));
-}
-
 /// to = from + dt * (rates of the stages, weighed); `rates` holds one stage after the other.
 void add_rates(std::span<const double> from, double dt, std::span<const double> weights,
                std::span<const double> rates, std::span<double> sum, std::span<double> to) {
@@ -240,6 +231,14 @@ void advance_part(const Model& model, double dt, const SteadyRows& rows, RobotWo
 }
 
 }  // namespace
+
+int parts_of_tick(const RobotType& type, double fastest, double dt) {
+    // In a net, which others hold, a body that turns fast swings to and fro: less exact will do.
+    constexpr double kTurnOfBody = 0.1, kTurnOfTree = 0.25, kTurnOfNet = 0.16;  // rad
+    constexpr double kPartsMax = 64;
+    const double turn = type.dofs.empty() ? kTurnOfBody : is_net(type) ? kTurnOfNet : kTurnOfTree;
+    return static_cast<int>(std::ceil(std::clamp(std::sqrt(fastest) * dt / turn, 1.0, kPartsMax)));
+}
 
 double fastest_turn(const Mechanics<double>& work) {
     double fastest = 0;

@@ -45,6 +45,10 @@ struct FreeBuffer {
 void advance_steadily(const Model& model, RobotWork& work, const SteadyRows& rows, double fastest,
                       FreeBuffer& buffer);
 
+/// The number of steps that a tick is cut into: no body turns further in one than the methods follow to a
+/// millionth. `fastest`: as above.
+int parts_of_tick(const RobotType& type, double fastest, double dt);
+
 /// The square of the largest angular velocity of a moved robot's bodies, (rad/s)^2.
 double fastest_turn(const Mechanics<double>& work);
 

@@ -8,11 +8,13 @@
 #include "physics/dynamics/axis_rows.h"
 #include "physics/dynamics/fast_turning.h"
 #include "physics/dynamics/fluid_forces.h"
+#include "physics/dynamics/lone_body.h"
 #include "physics/dynamics/tree_factor.h"
 
 namespace roboss {
 namespace {
 
+constexpr double kTurnMost = 16;  // rad in a tick
 constexpr double kGrowth = 2e-5;  // 1/s: of the kinetic energy, left to the method's errors of either sign
 
 /// Where the centre of mass comes to (from the origin), and the momentum about the origin.
@@ -60,7 +62,6 @@ class KickDrift {
 
   private:
     static constexpr int kLimitRounds = 3;
-    static constexpr double kTurnMost = 16;       // rad in a tick
     static constexpr double kMoreByShift = 1.01;  // times the kinetic energy about the centre of mass
 
     /// True where nothing may add to the robot's energy.
@@ -389,6 +390,8 @@ void advance_freely(const Model& model, RobotWork& work, FreeBuffer& buffer) {
     const double slow =
         work.type->dofs.empty() ? 0.005 : 0.02;  // rad in a tick: the methods' errors are small
     const double fastest = fastest_turn(work);
+    if (is_lone_body(model, work) && fastest * model.dt_s * model.dt_s < kTurnMost * kTurnMost)
+        return advance_lone_body(model, fastest, work);
     const bool is_slow = fastest * model.dt_s * model.dt_s < slow * slow;
     if (is_slow && !work.type->has_equalities()) return advance_steadily(model, work, {}, fastest, buffer);
     SolvedTick free;

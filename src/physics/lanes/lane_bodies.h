@@ -138,7 +138,11 @@ class LaneBodies final : public BodyKernel {
     }
 
     SweepReport sweep(BodyIsland& s, const SweepPlan& plan) const override {
-        return LaneSweeps::run(s, plan);
+        set_gradient(s);
+        const SweepReport report = LaneSweeps::run(s, plan);
+        set_gradient(s);
+        LaneSweeps::balance_momentum(s);
+        return report;
     }
 
   private:

@@ -31,87 +31,111 @@ class LaneSweeps {
         return progress.report();
     }
 
+    /// Velocities to match the impulses: v -= M^-1 gradient.
+    static void balance_momentum(BodyIsland& s) {
+        s.for_bodies([&](std::size_t b) {
+            Six y;
+            store(times(s.whitening[b], s.bodies[b].gradient), y);
+            const Row row = load(y);
+            for (std::size_t i = 0; i < 6; ++i)
+                s.bodies[b].v.x[i] -= roboss::total(load(s.whitening[b].row[i]) * row);
+        });
+    }
+
   private:
+#if defined(__AVX2__)
+    static constexpr std::size_t kFloats = 8;
+#else
+    static constexpr std::size_t kFloats = 4;
+#endif
+    using Floats [[gnu::vector_size(kFloats * sizeof(float))]] = float;
+
     /// Two bodies of each pair: six velocities.
     struct Velocities {
-        Part a[6], b[6];
+        Floats a[6], b[6];
     };
 
-    [[gnu::always_inline]] static Part at(const Eight& numbers, std::size_t lane) {
-        return load_part(numbers.x + lane);
+    [[gnu::always_inline]] static Floats load_floats(const float* x) {
+        using Place [[gnu::may_alias]] = Floats;
+        return *reinterpret_cast<const Place*>(x);
     }
-    [[gnu::always_inline]] static void put(const Part& part, std::size_t lane, Eight& numbers) {
-        store_part(part, numbers.x + lane);
+    [[gnu::always_inline]] static void store_floats(const Floats& floats, float* x) {
+        using Place [[gnu::may_alias]] = Floats;
+        *reinterpret_cast<Place*>(x) = floats;
+    }
+    [[gnu::always_inline]] static Floats at(const Eight& numbers, std::size_t lane) {
+        return load_floats(numbers.x + lane);
+    }
+    [[gnu::always_inline]] static void put(const Floats& floats, std::size_t lane, Eight& numbers) {
+        store_floats(floats, numbers.x + lane);
+    }
+    [[gnu::always_inline]] static Floats all_floats(float x) {
+        return x - Floats{};
     }
 
-    [[gnu::always_inline]] static Part square_root(const Part& x) {
-#if defined(__AVX512F__)
-        return Avx512::sqrt(x);
-#elif defined(__AVX2__)
+    [[gnu::always_inline]] static Floats square_root(const Floats& x) {
+#if defined(__AVX2__)
         return Avx2::sqrt(x);
 #else
-        Part root{};
-        for (std::size_t i = 0; i < kWidth; ++i) root[i] = std::sqrt(x[i]);
+        Floats root{};
+        for (std::size_t i = 0; i < kFloats; ++i) root[i] = std::sqrt(x[i]);
         return root;
 #endif
     }
 
     /// Rows become columns.
-    [[gnu::always_inline]] static void transpose(Part* r) {
-#if defined(__AVX512F__)
-        Part p[8], q[8];
+    [[gnu::always_inline]] static void transpose(Floats* r) {
+#if defined(__AVX2__)
+        Floats p[8], q[8];
         for (std::size_t i = 0; i < 8; i += 2) {
-            p[i] = __builtin_shufflevector(r[i], r[i + 1], 0, 8, 2, 10, 4, 12, 6, 14);
-            p[i + 1] = __builtin_shufflevector(r[i], r[i + 1], 1, 9, 3, 11, 5, 13, 7, 15);
+            p[i] = __builtin_shufflevector(r[i], r[i + 1], 0, 8, 1, 9, 4, 12, 5, 13);
+            p[i + 1] = __builtin_shufflevector(r[i], r[i + 1], 2, 10, 3, 11, 6, 14, 7, 15);
         }
         for (std::size_t i = 0; i < 8; i += 4)
-            for (std::size_t k = i; k < i + 2; ++k) {
-                q[k] = __builtin_shufflevector(p[k], p[k + 2], 0, 1, 8, 9, 4, 5, 12, 13);
-                q[k + 2] = __builtin_shufflevector(p[k], p[k + 2], 2, 3, 10, 11, 6, 7, 14, 15);
+            for (std::size_t k = 0; k < 2; ++k) {
+                q[i + 2 * k] = __builtin_shufflevector(p[i + k], p[i + k + 2], 0, 1, 8, 9, 4, 5, 12, 13);
+                q[i + 2 * k + 1] =
+                    __builtin_shufflevector(p[i + k], p[i + k + 2], 2, 3, 10, 11, 6, 7, 14, 15);
             }
         for (std::size_t k = 0; k < 4; ++k) {
             r[k] = __builtin_shufflevector(q[k], q[k + 4], 0, 1, 2, 3, 8, 9, 10, 11);
             r[k + 4] = __builtin_shufflevector(q[k], q[k + 4], 4, 5, 6, 7, 12, 13, 14, 15);
         }
-#elif defined(__AVX2__)
-        Part p[4];
+#else
+        Floats p[4];
         for (std::size_t i = 0; i < 4; i += 2) {
-            p[i] = __builtin_shufflevector(r[i], r[i + 1], 0, 4, 2, 6);
-            p[i + 1] = __builtin_shufflevector(r[i], r[i + 1], 1, 5, 3, 7);
+            p[i] = __builtin_shufflevector(r[i], r[i + 1], 0, 4, 1, 5);
+            p[i + 1] = __builtin_shufflevector(r[i], r[i + 1], 2, 6, 3, 7);
         }
         for (std::size_t k = 0; k < 2; ++k) {
-            r[k] = __builtin_shufflevector(p[k], p[k + 2], 0, 1, 4, 5);
-            r[k + 2] = __builtin_shufflevector(p[k], p[k + 2], 2, 3, 6, 7);
+            r[2 * k] = __builtin_shufflevector(p[k], p[k + 2], 0, 1, 4, 5);
+            r[2 * k + 1] = __builtin_shufflevector(p[k], p[k + 2], 2, 3, 6, 7);
         }
-#else
-        const Part first = r[0];
-        r[0] = Part{first[0], r[1][0]};
-        r[1] = Part{first[1], r[1][1]};
 #endif
     }
 
     /// Between bodies' rows of six and lanes.
-    [[gnu::always_inline]] static void gather(const Six* bodies, const int* chosen, Part* columns) {
-        for (std::size_t k = 0; k < 6; k += kWidth) {
-            Part block[kWidth];
-            for (std::size_t i = 0; i < kWidth; ++i) block[i] = load_part(bodies[chosen[i]].x + k);
+    [[gnu::always_inline]] static void gather(const SixFloats* bodies, const int* chosen, Floats* columns) {
+        for (std::size_t k = 0; k < 6; k += kFloats) {
+            Floats block[kFloats];
+            for (std::size_t i = 0; i < kFloats; ++i) block[i] = load_floats(bodies[chosen[i]].x + k);
             transpose(block);
-            for (std::size_t i = 0; i < kWidth && k + i < 6; ++i) columns[k + i] = block[i];
+            for (std::size_t i = 0; i < kFloats && k + i < 6; ++i) columns[k + i] = block[i];
         }
     }
-    [[gnu::always_inline]] static void scatter(const Part* columns, const int* chosen, Six* bodies) {
-        for (std::size_t k = 0; k < 6; k += kWidth) {
-            Part block[kWidth];
-            for (std::size_t i = 0; i < kWidth; ++i) block[i] = k + i < 6 ? columns[k + i] : Part{};
+    [[gnu::always_inline]] static void scatter(const Floats* columns, const int* chosen, SixFloats* bodies) {
+        for (std::size_t k = 0; k < 6; k += kFloats) {
+            Floats block[kFloats];
+            for (std::size_t i = 0; i < kFloats; ++i) block[i] = k + i < 6 ? columns[k + i] : Floats{};
             transpose(block);
-            for (std::size_t i = 0; i < kWidth; ++i) store_part(block[i], bodies[chosen[i]].x + k);
+            for (std::size_t i = 0; i < kFloats; ++i) store_floats(block[i], bodies[chosen[i]].x + k);
         }
     }
 
     template <bool kScenery>
-    [[gnu::always_inline]] static Part along(const Eight* a, const Eight* b, const Velocities& y,
-                                             std::size_t lane) {
-        Part sums[6];
+    [[gnu::always_inline]] static Floats along(const Eight* a, const Eight* b, const Velocities& y,
+                                               std::size_t lane) {
+        Floats sums[6];
         for (std::size_t i = 0; i < 6; ++i) {
             sums[i] = at(a[i], lane) * y.a[i];
             if constexpr (!kScenery) sums[i] = sums[i] + at(b[i], lane) * y.b[i];
@@ -121,31 +145,31 @@ class LaneSweeps {
 
     /// A contact point of each pair; returns the squared change of the impulses, each by its effective mass.
     template <bool kScenery>
-    [[gnu::always_inline]] static Part sweep_point(PointSlot& p, std::size_t lane, const Part& share,
-                                                   Velocities& y) {
+    [[gnu::always_inline]] static Floats sweep_point(PointSlot& p, std::size_t lane, const Floats& share,
+                                                     Velocities& y) {
         const auto accelerated = [&](const Eight& impulse, const Eight& last, Eight& direction) {
-            const Part old = share * at(direction, lane);
+            const Floats old = share * at(direction, lane);
             put(old + at(last, lane), lane, direction);
             return at(impulse, lane) + old;
         };
-        const Part n_before = accelerated(p.impulse_n, p.change_n, p.direction_n),
-                   t1_before = accelerated(p.impulse_1, p.change_1, p.direction_1),
-                   t2_before = accelerated(p.impulse_2, p.change_2, p.direction_2);
-        const Part u_n = along<kScenery>(p.n_a, p.n_b, y, lane),
-                   u_1 = along<kScenery>(p.t1_a, p.t1_b, y, lane),
-                   u_2 = along<kScenery>(p.t2_a, p.t2_b, y, lane), none{};
-        Part n = n_before +
-                 ((at(p.target_n, lane) - u_n) - at(p.compliance, lane) * n_before) * at(p.mass_n, lane);
+        const Floats n_before = accelerated(p.impulse_n, p.change_n, p.direction_n),
+                     t1_before = accelerated(p.impulse_1, p.change_1, p.direction_1),
+                     t2_before = accelerated(p.impulse_2, p.change_2, p.direction_2);
+        const Floats u_n = along<kScenery>(p.n_a, p.n_b, y, lane),
+                     u_1 = along<kScenery>(p.t1_a, p.t1_b, y, lane),
+                     u_2 = along<kScenery>(p.t2_a, p.t2_b, y, lane), none{};
+        Floats n = n_before +
+                   ((at(p.target_n, lane) - u_n) - at(p.compliance, lane) * n_before) * at(p.mass_n, lane);
         n = n > none ? n : none;
-        const Part dn = n - n_before, slip = at(p.slip, lane), mass_t = at(p.mass_t, lane);
-        Part t1 = t1_before -
-                  ((u_1 + at(p.n_on_1, lane) * dn) - at(p.target_1, lane) + slip * t1_before) * mass_t,
-             t2 = t2_before -
-                  ((u_2 + at(p.n_on_2, lane) * dn) - at(p.target_2, lane) + slip * t2_before) * mass_t;
-        const Part bound = at(p.bound, lane) + at(p.coefficient, lane) * n, size2 = t1 * t1 + t2 * t2;
-        const Part cut = size2 > bound * bound ? bound / square_root(size2) : all(1);
+        const Floats dn = n - n_before, slip = at(p.slip, lane), mass_t = at(p.mass_t, lane);
+        Floats t1 = t1_before -
+                    ((u_1 + at(p.n_on_1, lane) * dn) - at(p.target_1, lane) + slip * t1_before) * mass_t,
+               t2 = t2_before -
+                    ((u_2 + at(p.n_on_2, lane) * dn) - at(p.target_2, lane) + slip * t2_before) * mass_t;
+        const Floats bound = at(p.bound, lane) + at(p.coefficient, lane) * n, size2 = t1 * t1 + t2 * t2;
+        const Floats cut = size2 > bound * bound ? bound / square_root(size2) : all_floats(1);
         t1 = t1 * cut, t2 = t2 * cut;
-        const Part d1 = t1 - t1_before, d2 = t2 - t2_before;
+        const Floats d1 = t1 - t1_before, d2 = t2 - t2_before;
         for (std::size_t i = 0; i < 6; ++i) {
             y.a[i] =
                 y.a[i] + ((at(p.n_a[i], lane) * dn + at(p.t1_a[i], lane) * d1) + at(p.t2_a[i], lane) * d2);
@@ -161,7 +185,7 @@ class LaneSweeps {
     /// The pairs of a batch from `lane` on; take(slot, change of its impulses).
     template <bool kScenery, class Take>
     [[gnu::always_inline]] static void sweep_batch(BodyIsland& s, const PairBatch& batch, std::size_t lane,
-                                                   const Part& share, const Take& take) {
+                                                   const Floats& share, const Take& take) {
         Velocities y;
         gather(s.swept.data(), batch.a + lane, y.a);
         if constexpr (!kScenery) gather(s.swept.data(), batch.b + lane, y.b);
@@ -172,7 +196,7 @@ class LaneSweeps {
     }
 
     static void keep_velocities(BodyIsland& s) {
-        for (std::size_t b = 0; b < s.bodies.size(); ++b) store(load(s.swept[b]), s.swept_before[b]);
+        std::copy_n(s.swept.begin(), s.bodies.size(), s.swept_before.begin());
     }
 
     static double first_sweep(BodyIsland& s, SweepProgress& progress) {
@@ -186,11 +210,11 @@ class LaneSweeps {
     static double sweep(BodyIsland& s, double share) {
         if (s.team.size() > 1) return sweep_together(s, share);
         Eight changes;
-        const Part shares = all(share);
+        const Floats shares = all_floats(static_cast<float>(share));
         for (const PairBatch& batch : s.pairs.batches())
-            for (std::size_t lane = 0; lane < static_cast<std::size_t>(batch.pairs); lane += kWidth) {
-                Part change = at(changes, lane);
-                const auto add = [&](std::size_t, const Part& by) { change = change + by; };
+            for (std::size_t lane = 0; lane < static_cast<std::size_t>(batch.pairs); lane += kFloats) {
+                Floats change = at(changes, lane);
+                const auto add = [&](std::size_t, const Floats& by) { change = change + by; };
                 if (batch.scenery)
                     sweep_batch<true>(s, batch, lane, shares, add);
                 else
@@ -216,7 +240,8 @@ class LaneSweeps {
                 const std::size_t first = begin + (item - 1) * kBlock, last = std::min(first + kBlock, end);
                 for (std::size_t k = first; k < last; ++k) {
                     if (k + 1 < end) fetch(s, s.pairs.batches()[s.pairs.by_bodies()[k + 1]]);
-                    sweep_for_team(s, s.pairs.batches()[s.pairs.by_bodies()[k]], all(share));
+                    sweep_for_team(s, s.pairs.batches()[s.pairs.by_bodies()[k]],
+                                   all_floats(static_cast<float>(share)));
                 }
             });
         }
@@ -233,9 +258,9 @@ class LaneSweeps {
         }
     }
 
-    static void sweep_for_team(BodyIsland& s, const PairBatch& batch, const Part& share) {
-        for (std::size_t lane = 0; lane < static_cast<std::size_t>(batch.pairs); lane += kWidth) {
-            const auto keep = [&](std::size_t slot, const Part& by) { put(by, lane, s.slot_terms[slot]); };
+    static void sweep_for_team(BodyIsland& s, const PairBatch& batch, const Floats& share) {
+        for (std::size_t lane = 0; lane < static_cast<std::size_t>(batch.pairs); lane += kFloats) {
+            const auto keep = [&](std::size_t slot, const Floats& by) { put(by, lane, s.slot_terms[slot]); };
             if (batch.scenery)
                 sweep_batch<true>(s, batch, lane, share, keep);
             else
@@ -247,8 +272,8 @@ class LaneSweeps {
     static void add_terms(const BodyIsland& s, std::size_t first, std::size_t last, Eight& changes) {
         for (std::size_t k = first; k < last; ++k) {
             const PairBatch& batch = s.pairs.batches()[k];
-            for (std::size_t lane = 0; lane < static_cast<std::size_t>(batch.pairs); lane += kWidth) {
-                Part change = at(changes, lane);
+            for (std::size_t lane = 0; lane < static_cast<std::size_t>(batch.pairs); lane += kFloats) {
+                Floats change = at(changes, lane);
                 for (std::size_t slot = batch.first; slot < batch.last; ++slot)
                     change = change + at(s.slot_terms[slot], lane);
                 put(change, lane, changes);
@@ -257,7 +282,8 @@ class LaneSweeps {
     }
 
     static double total(const Eight& sums) {
-        const double* x = sums.x;
+        double x[8];
+        std::copy_n(sums.x, 8, x);
         return ((x[0] + x[1]) + (x[2] + x[3])) + ((x[4] + x[5]) + (x[6] + x[7]));
     }
 
@@ -268,8 +294,8 @@ class LaneSweeps {
             const BodyPoint& p = s.points[k];
             const std::size_t lane = s.pairs.place_of(k) % 8;
             const PointSlot& slot = s.slots[s.pairs.place_of(k) / 8];
-            sum +=
-                p.u_n * p.u_n * slot.mass_n.x[lane] + (p.u_1 * p.u_1 + p.u_2 * p.u_2) * slot.mass_t.x[lane];
+            sum += p.u_n * p.u_n * double{slot.mass_n.x[lane]} +
+                   (p.u_1 * p.u_1 + p.u_2 * p.u_2) * double{slot.mass_t.x[lane]};
         }
         return sum;
     }
@@ -277,8 +303,9 @@ class LaneSweeps {
     static double squared_impulses(const BodyIsland& s) {
         Eight sums;
         for (const PointSlot& p : s.slots)
-            for (std::size_t lane = 0; lane < 8; lane += kWidth) {
-                const Part n = at(p.impulse_n, lane), t1 = at(p.impulse_1, lane), t2 = at(p.impulse_2, lane);
+            for (std::size_t lane = 0; lane < 8; lane += kFloats) {
+                const Floats n = at(p.impulse_n, lane), t1 = at(p.impulse_1, lane),
+                             t2 = at(p.impulse_2, lane);
                 put(at(sums, lane) + (n * n * at(p.inverse_mass_n, lane) +
                                       (t1 * t1 + t2 * t2) * at(p.inverse_mass_t, lane)),
                     lane, sums);
@@ -289,11 +316,15 @@ class LaneSweeps {
     /// Moves along the search direction, shortened by `share`, and adds the last sweep's change to it.
     /// Velocities are linear in the impulses, so they have a search direction of their own. Keeps them.
     static void accelerate_bodies(BodyIsland& s, double share) {
+        const Floats shares = all_floats(static_cast<float>(share));
         s.for_bodies([&](std::size_t b) {
-            const Row direction = share * load(s.swept_direction[b]), swept = load(s.swept[b]),
-                      moved = swept + direction;
-            store(direction + (swept - load(s.swept_before[b])), s.swept_direction[b]);
-            store(moved, s.swept[b]), store(moved, s.swept_before[b]);
+            float *direction = s.swept_direction[b].x, *swept = s.swept[b].x, *before = s.swept_before[b].x;
+            for (std::size_t k = 0; k < 8; k += kFloats) {
+                const Floats along = shares * load_floats(direction + k), now = load_floats(swept + k),
+                             moved = now + along;
+                store_floats(along + (now - load_floats(before + k)), direction + k);
+                store_floats(moved, swept + k), store_floats(moved, before + k);
+            }
         });
     }
 
@@ -301,45 +332,18 @@ class LaneSweeps {
         make_room_for_sweeps(s);
         s.for_bodies([&](std::size_t b) {
             invert_root(s.bodies[b].mass, s.whitening[b]);
-            store(times(s.whitening[b], s.bodies[b].impulse), s.swept[b]);
+            Six y;
+            store(times(s.whitening[b], s.bodies[b].gradient), y);
+            for (std::size_t i = 0; i < 6; ++i) s.swept[b].x[i] = static_cast<float>(-y.x[i]);
         });
-        if (s.team.size() == 1) {
-            for (std::size_t k = 0; k < s.points.size(); ++k) take_point<true>(s, k);
-            return;
-        }
-        s.for_points([&](std::size_t k) { take_point<false>(s, k); });
-        s.for_bodies([&](std::size_t b) {
-            s.ends.for_each(b, [&](std::size_t k, bool is_b) {
-                const BodyPoint& p = s.points[k];
-                if (is_b)
-                    push(s, b, p,
-                         {times(s.whitening[b], p.n_b), times(s.whitening[b], p.t1_b),
-                          times(s.whitening[b], p.t2_b)});
-                else
-                    push(s, b, p,
-                         {times(s.whitening[b], p.n_a), times(s.whitening[b], p.t1_a),
-                          times(s.whitening[b], p.t2_a)});
-            });
-        });
+        s.for_points([&](std::size_t k) { take_point(s, k); });
     }
 
-    /// Jacobian of a point for one of its bodies, whitened.
-    struct Whitened {
-        Row n, t1, t2;
-    };
-    /// The point's impulses change the body's velocity.
-    [[gnu::always_inline]] static void push(BodyIsland& s, std::size_t body, const BodyPoint& p,
-                                            const Whitened& j) {
-        Row y = load(s.swept[body]);
-        add(y, p.f_n, j.n), add(y, p.f_1, j.t1), add(y, p.f_2, j.t2);
-        store(y, s.swept[body]);
-    }
-
-    template <bool kPushes>
     static void take_point(BodyIsland& s, std::size_t point) {
         const BodyPoint& p = s.points[point];
         const std::size_t place = s.pairs.place_of(point), lane = place % 8;
         PointSlot& slot = s.slots[place / 8];
+        const auto put = [lane](double x, Eight& to) { to.x[lane] = static_cast<float>(x); };
         double n_n = 0, t_1 = 0, t_2 = 0, n_1 = 0, n_2 = 0;
         const auto side = [&](int body, const Six& n, const Six& t1, const Six& t2, Eight* to_n, Eight* to_1,
                               Eight* to_2) {
@@ -348,26 +352,27 @@ class LaneSweeps {
             n_n += roboss::total(rows[0] * rows[0]);
             t_1 += roboss::total(rows[1] * rows[1]), t_2 += roboss::total(rows[2] * rows[2]);
             n_1 += roboss::total(rows[0] * rows[1]), n_2 += roboss::total(rows[0] * rows[2]);
-            if constexpr (kPushes) push(s, static_cast<std::size_t>(body), p, {rows[0], rows[1], rows[2]});
             Eight* to[3] = {to_n, to_1, to_2};
             for (std::size_t d = 0; d < 3; ++d) {
                 Six six;
                 store(rows[d], six);
-                for (std::size_t i = 0; i < 6; ++i) to[d][i].x[lane] = six.x[i];
+                for (std::size_t i = 0; i < 6; ++i) put(six.x[i], to[d][i]);
             }
         };
         side(p.a, p.n_a, p.t1_a, p.t2_a, slot.n_a, slot.t1_a, slot.t2_a);
         if (p.b >= 0) side(p.b, p.n_b, p.t1_b, p.t2_b, slot.n_b, slot.t1_b, slot.t2_b);
         const double compliance = 1.0 / p.stiffness_n, slip = 1.0 / p.stiffness_t;
         const double inverse_n = n_n + compliance, inverse_t = std::max(t_1, t_2) + slip;
-        slot.compliance.x[lane] = compliance, slot.slip.x[lane] = slip;
-        slot.inverse_mass_n.x[lane] = inverse_n, slot.inverse_mass_t.x[lane] = inverse_t;
-        slot.mass_n.x[lane] = 1.0 / inverse_n, slot.mass_t.x[lane] = 1.0 / inverse_t;
-        slot.n_on_1.x[lane] = n_1, slot.n_on_2.x[lane] = n_2;
-        slot.target_n.x[lane] = p.target_n, slot.target_1.x[lane] = p.target_1;
-        slot.target_2.x[lane] = p.target_2;
-        (s.bounds_stay ? slot.bound : slot.coefficient).x[lane] = s.bounds_stay ? p.bound : p.coefficient;
-        slot.impulse_n.x[lane] = p.f_n, slot.impulse_1.x[lane] = p.f_1, slot.impulse_2.x[lane] = p.f_2;
+        put(compliance, slot.compliance), put(slip, slot.slip);
+        put(inverse_n, slot.inverse_mass_n), put(inverse_t, slot.inverse_mass_t);
+        put(1.0 / inverse_n, slot.mass_n), put(1.0 / inverse_t, slot.mass_t);
+        put(n_1, slot.n_on_1), put(n_2, slot.n_on_2);
+        put(p.target_n - p.u_n, slot.target_n), put(-p.u_1, slot.target_1), put(-p.u_2, slot.target_2);
+        if (s.bounds_stay)
+            put(p.bound, slot.bound);
+        else
+            put(p.coefficient, slot.coefficient);
+        put(p.f_n, slot.impulse_n), put(p.f_1, slot.impulse_1), put(p.f_2, slot.impulse_2);
     }
 
     /// L^-1 of a mass matrix L L^T (Cholesky), column by column.
@@ -395,19 +400,15 @@ class LaneSweeps {
         }
     }
 
-    /// v = L^-T y, and the impulses.
+    /// The impulses.
     static void finish(BodyIsland& s) {
-        s.for_bodies([&](std::size_t b) {
-            const Row y = load(s.swept[b]);
-            for (std::size_t i = 0; i < 6; ++i)
-                s.bodies[b].v.x[i] = roboss::total(load(s.whitening[b].row[i]) * y);
-        });
         s.for_points([&](std::size_t k) {
             const std::size_t place = s.pairs.place_of(k), lane = place % 8;
             const PointSlot& slot = s.slots[place / 8];
             BodyPoint& p = s.points[k];
-            p.swept_n = slot.impulse_n.x[lane];
-            p.swept_1 = slot.impulse_1.x[lane], p.swept_2 = slot.impulse_2.x[lane];
+            p.f_n = p.swept_n = double{slot.impulse_n.x[lane]};
+            p.f_1 = p.swept_1 = double{slot.impulse_1.x[lane]};
+            p.f_2 = p.swept_2 = double{slot.impulse_2.x[lane]};
         });
     }
 };
