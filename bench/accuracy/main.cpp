@@ -12,6 +12,7 @@
 
 #include "accuracy/results.h"
 #include "accuracy/trial.h"
+#include "app/commands/numbers.h"
 #include "support/bodies.h"
 
 namespace roboss::bench {
@@ -50,11 +51,11 @@ void add_options(CLI::App& app, Options& o) {
     app.add_option("--patience", o.patience_s,
                    "wall time that a peer gets for a case, s (four times as much for the slow ones); RoBOSS "
                    "always finishes")
-        ->check(CLI::PositiveNumber)
+        ->check(positive_number())
         ->capture_default_str();
     app.add_option("--dt", o.dt_s,
                    "step of every case, s (default: the case's own); leaves the second table out")
-        ->check(CLI::PositiveNumber);
+        ->check(positive_number());
     app.add_option("--markdown", o.markdown, "write the page to this file");
     app.add_option("--json", o.json, "write all rows to this file");
     app.add_option("--picture", o.picture, "write the picture of the arm's energy (SVG) to this file");

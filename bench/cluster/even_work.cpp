@@ -46,7 +46,7 @@ double stepping_ns(const Work& work, const Assignment& assignment, Seat& seat) {
         seat.store.put(robot, assignment.from, RobotState(work.states[robot.index()]));
         seat.store.start(robot, assignment.from);
     }
-    const WindowResult result = seat.stepper.step(
+    const WindowResult result = *seat.stepper.step(
         assignment, seat.store, [](const StepProgress&) { return WindowStepper::Next::kContinue; });
     return static_cast<double>(result.islands[0].cost_ns);
 }

@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <exception>
 
+#include "app/commands/numbers.h"
 #include "peers/agreement.h"
 #include "peers/contest.h"
 #include "peers/price_list.h"
@@ -13,6 +14,7 @@
 namespace {
 
 using namespace roboss::bench;
+using roboss::positive_number;
 
 struct BenchOptions {
     std::vector<std::string> scenes;
@@ -100,16 +102,15 @@ int run_price_list(const BenchOptions& options) {
 
 void add_options(CLI::App& app, BenchOptions& options) {
     app.add_option("--scene", options.scenes, "only these scenes");
-    app.add_option("--robots", options.robots, "instead of the scenes' own sizes")
-        ->check(CLI::PositiveNumber);
+    app.add_option("--robots", options.robots, "instead of the scenes' own sizes")->check(positive_number());
     app.add_option("--engine", options.contest.engines, "only these engines; ratios need RoBOSS among them");
     app.add_option("--steps", options.contest.steps,
                    "counted steps (otherwise a thousand, or 100000 robot-steps if that is more)")
-        ->check(CLI::PositiveNumber);
-    app.add_option("--settle", options.contest.settle, "steps before")->check(CLI::PositiveNumber);
+        ->check(positive_number());
+    app.add_option("--settle", options.contest.settle, "steps before")->check(positive_number());
     app.add_option("--blocks", options.contest.blocks,
                    "number of blocks of counted steps; the median is reported")
-        ->check(CLI::PositiveNumber);
+        ->check(positive_number());
     app.add_option("--limit", options.contest.limit_s,
                    "seconds of counted steps an engine and scene; a slower engine counts fewer steps");
     app.add_option("--start-limit", options.contest.start_limit_s,
@@ -117,7 +118,7 @@ void add_options(CLI::App& app, BenchOptions& options) {
     app.add_option("--accuracy", options.contest.accuracy,
                    "1: as each engine is set up with care; 10: ten times the iterations or a tenth of the "
                    "tolerance")
-        ->check(CLI::PositiveNumber);
+        ->check(positive_number());
     app.add_flag("--quick", options.quick, "about two minutes: small sizes, short limits");
     app.add_flag("--alone", options.alone, "in this process, without turns: for profilers");
     app.add_flag("--check-engines", options.check,

@@ -1,4 +1,6 @@
-"""Where the repository is, and runs of the golden list."""
+"""Where the repository is, runs of the golden list, and the commands of roboss.analysis."""
+import contextlib
+import io
 import json
 import subprocess
 import sys
@@ -9,6 +11,7 @@ import numpy as np
 import pytest
 
 import roboss
+from roboss.analysis.command import main as analysis
 
 REPOSITORY = Path(__file__).resolve().parents[2]
 
@@ -39,6 +42,16 @@ def golden_runs():
         runs.setdefault(words[0], Golden(words[0], words[1], options.get("--orders", ""), float(options["--duration"]),
                                          options.get("--precision", "double"), options.get("--accuracy", "")))
     return list(runs.values())
+
+
+def analysis_command(*words, folder="."):
+    """Exit code, output and errors of `roboss record`, `plot`, `analyse` or `calibrate`, run in this process: a Python that
+    starts and imports all again takes longer than most of them."""
+    out, errors = io.StringIO(), io.StringIO()
+    with contextlib.chdir(folder), contextlib.redirect_stdout(out), contextlib.redirect_stderr(errors), \
+            pytest.raises(SystemExit) as end:
+        analysis(list(words))
+    return end.value.code, out.getvalue(), errors.getvalue()
 
 
 @pytest.fixture

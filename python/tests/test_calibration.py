@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import roboss
-from conftest import REPOSITORY
+from conftest import REPOSITORY, analysis_command
 from roboss.analysis import calibration, read, record
 
 _SPEC = importlib.util.spec_from_file_location("soccer_calibrate", REPOSITORY / "examples/soccer/calibrate.py")
@@ -40,9 +40,13 @@ def slide(tmp_path_factory):
 
 
 def command(folder, *words, code=0):
-    done = subprocess.run([sys.executable, "-m", "roboss", *words], cwd=folder, capture_output=True, text=True, timeout=120)
-    assert done.returncode == code, done.stderr
-    return done.stdout if code == 0 else done.stderr
+    if words[0] == "run":
+        done = subprocess.run([sys.executable, "-m", "roboss", *words], cwd=folder, capture_output=True, text=True, timeout=120)
+        ended, output, errors = done.returncode, done.stdout, done.stderr
+    else:
+        ended, output, errors = analysis_command(*words, folder=folder)
+    assert ended == code, errors
+    return output if code == 0 else errors
 
 
 def test_torque_and_friction_of_a_soccer_robot_are_found(tmp_path):

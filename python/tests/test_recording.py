@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 import roboss
-from conftest import REPOSITORY
+from conftest import REPOSITORY, analysis_command
 from roboss import analysis
 
 CROSSROADS, ARM = roboss.example("crossroads.sdf"), roboss.example("arm.sdf")
@@ -19,9 +19,9 @@ PATTERNS = ["car_[03].pose", "car_0.speed", "car_0.front_left.*", "car_3.compass
 
 def command(*arguments, code=0):
     """What a command printed to standard output; it ended with this exit code."""
-    done = subprocess.run([sys.executable, "-P", "-m", "roboss", *map(str, arguments)], capture_output=True, text=True, check=False)
-    assert done.returncode == code, done.stderr
-    return done.stdout if code == 0 else done.stderr
+    ended, output, errors = analysis_command(*map(str, arguments))
+    assert ended == code, errors
+    return output if code == 0 else errors
 
 
 @pytest.fixture(scope="module")

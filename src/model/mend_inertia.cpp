@@ -12,10 +12,19 @@ namespace {
 constexpr double kSmallMass = 1e-3;      // kg
 constexpr double kSmallRadius = 0.01;    // m
 constexpr double kSmallestShare = 1e-3;  // of the greatest moment
+/// Of the greatest moment: less is lost in rounding. The mass matrix is singular then, and the state soon not
+/// finite (seen below 1e-15).
+constexpr double kVanishingShare = 1e-12;
 
 bool positive_definite(const Mat3& m) {
     const double minor2 = m(0, 0) * m(1, 1) - m(0, 1) * m(1, 0);
     return m(0, 0) > 0 && minor2 > 0 && dot(m.r0, cross(m.r1, m.r2)) > 0;
+}
+
+/// About every axis there is more than what is lost in rounding.
+bool resists_every_turn(const Mat3& m) {
+    const double lost = kVanishingShare * std::max({m(0, 0), m(1, 1), m(2, 2), 0.0});
+    return positive_definite(m - Mat3::diagonal(lost, lost, lost));
 }
 
 /// No principal moment is below this (Gershgorin).
@@ -66,15 +75,15 @@ void mend_inertia(RobotType& type, const ModelSpec& spec, const std::vector<std:
                 "link '" + link.name + "' of model '" + spec.name +
                     "' can move and has no mass; it gets 1 g and the inertia of a ball of 1 cm",
                 "Write its <inertial>, or join it to its parent with a fixed joint.");
-        } else if (!positive_definite(body.inertia_C)) {
+        } else if (!resists_every_turn(body.inertia_C)) {
             const double moment = missing_moment(body.inertia_C, body.mass);
             const Mat3 more = Mat3::diagonal(moment, moment, moment);
             link.inertia_C = link.inertia_C + more;
             body.inertia_C = body.inertia_C + more;
             diagnostics.warning(source.where, "small-inertia",
                                 "link '" + link.name + "' of model '" + spec.name +
-                                    "' can turn and has no inertia about some axis; " + three_digits(moment) +
-                                    " kg m^2 are added about each",
+                                    "' can turn and has no inertia to speak of about some axis; " +
+                                    three_digits(moment) + " kg m^2 are added about each",
                                 "Write its moments of inertia about the centre of mass.");
         }
     }

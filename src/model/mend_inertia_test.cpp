@@ -46,6 +46,17 @@ TEST(MendInertia, ARodGetsAThousandthAboutItsAxis) {
     EXPECT_NEAR(c.type().bodies[1].inertia_C(2, 2), 1e-3, 1e-12);
 }
 
+TEST(MendInertia, AMomentThatIsLostInRoundingIsNone) {
+    const Compiled c = compile_one(pair_of(JointSpecKind::kRevolute, 1, Mat3::diagonal(1e-17, 1, 1)));
+    ASSERT_NE(c.model, nullptr);
+    EXPECT_TRUE(has(c.diagnostics, "small-inertia"));
+    EXPECT_NEAR(c.type().bodies[1].inertia_C(0, 0), 1e-3, 1e-12);
+    const Compiled thin = compile_one(pair_of(JointSpecKind::kRevolute, 1, Mat3::diagonal(1e-10, 1, 1)));
+    ASSERT_NE(thin.model, nullptr);
+    EXPECT_FALSE(has(thin.diagnostics, "small-inertia"));
+    EXPECT_EQ(thin.type().bodies[1].inertia_C(0, 0), 1e-10);
+}
+
 TEST(MendInertia, ASoundInertiaStaysAsItIs) {
     const Mat3 inertia = Mat3::diagonal(1e-9, 1e-9, 1e-9);
     const Compiled c = compile_one(pair_of(JointSpecKind::kRevolute, 1e-6, inertia));

@@ -5,8 +5,12 @@
 #include <support/bonds.h>
 #include <support/count_allocations.h>
 #include <support/drives.h>
+#include <support/joint_net.h>
 #include <support/mechanisms.h>
 #include <support/scenes.h>
+#include <algorithm>
+
+#include "core/thread_pool.h"
 
 namespace roboss::test {
 namespace {
@@ -142,6 +146,58 @@ TEST(Allocation, LoopsAndGearsAllocateNothing) {
     sim.states[1].motors[3] = {MotorMode::kEffort, 0.1, 1};
     sim.states[2].motors[0] = {MotorMode::kVelocity, 5, 100};
     EXPECT_EQ(allocations_of(sim, 200), 0u);
+}
+
+World hanging_net(std::size_t side) {
+    ModelSpec net = joint_net(side, 0.4);
+    for (JointSpec& joint : net.joints) joint.ball_damping = 1e-3;
+    World world = empty_world(2e-3);
+    place(world, net, "net");
+    return world;
+}
+
+TEST(Allocation, ANetAllocatesNothing) {
+    Simulation sim(hanging_net(6));
+    EXPECT_EQ(allocations_of(sim, 100), 0u);
+}
+
+/// Of several runs with a team. A thread may get more in one run than in those before, and its buffers grow
+/// then; so the first run that allocates nothing ends the search.
+std::size_t fewest_allocations_of_a_team(Simulation& sim, int ticks) {
+    constexpr int kRuns = 30;
+    ThreadPool pool(3);
+    sim.scratch.use_team(Team(pool));
+    std::size_t fewest = allocations_of(sim, ticks);
+    for (int run = 1; run < kRuns && fewest > 0; ++run) fewest = std::min(fewest, allocations_of(sim, ticks));
+    sim.scratch.use_team({});
+    return fewest;
+}
+
+TEST(Allocation, ATeamThatSharesANetAllocatesNothing) {
+    Simulation sim(hanging_net(11));
+    EXPECT_EQ(fewest_allocations_of_a_team(sim, 10), 0u);
+}
+
+TEST(Allocation, ATeamThatSharesOnePileAllocatesNothing) {
+    constexpr int kSide = 28;  // balls on the ground, pressed together
+    World world = empty_world(2e-3);
+    place(world, ground(surface(0.7)), "ground");
+    world.prototypes.push_back(solid_sphere(1.0, 0.1, surface(0.5)));
+    for (int i = 0; i < kSide * kSide; ++i)
+        world.instances.push_back(
+            {"ball_" + std::to_string(i), 1, {{0.199 * (i % kSide), 0.199 * (i / kSide), 0.0995}, {}}, {}});
+    Simulation sim(world);
+    for (RobotState& state : sim.states)
+        for (std::size_t axis = 0; axis < 2; ++axis) state.v[3 + axis] = -0.3 * (state.q[axis] - 2);
+    sim.scratch.measure_stages([] { return std::uint64_t{0}; });
+    const std::vector<RobotState> start = sim.states;
+    std::uint64_t largest = 0;
+    for (int i = 0; i < 8; ++i)
+        sim.step(), largest = std::max(largest, sim.report.profile.solver.largest_part);
+    EXPECT_GE(largest, 768u) << "a team would not share its parts";
+    for (std::size_t r = 0; r < start.size(); ++r) sim.states[r] = start[r];
+    sim.tick = 0;
+    EXPECT_EQ(fewest_allocations_of_a_team(sim, 8), 0u);
 }
 
 }  // namespace

@@ -62,6 +62,7 @@ Simulation::Simulation(std::shared_ptr<const Model> model, const SimulationOptio
       pool_(options.threads),
       lanes_(options.lanes),
       observer_(options.observer),
+      interrupted_(options.interrupted),
       controller_(model_, controller_options(options, programs),
                   starting_point(*model_, from, controller_options(options, programs).clients)),
       probe_(*model_),
@@ -82,6 +83,8 @@ void Simulation::add_simulator() {
     SimulatorOptions role;
     role.lanes = lanes_;
     role.name = "inside";
+    // A recovery goes on: without the states that it brings back the run cannot be saved.
+    role.abandons = [this] { return is_interrupted() && controller_.phase() == Phase::kStepping; };
     simulators_.push_back(
         std::make_unique<Simulator>(model_, Address{Role::kSimulator, ++instance_}, role, pool_));
 }
@@ -154,6 +157,7 @@ Result<> Simulation::run_until(Tick target, const std::function<bool()>& go_on) 
     controller_.run_until(target);
     bool stop = false;
     turn_until([&] {
+        if (is_interrupted()) controller_.abandon_window();
         if (go_on && !stop && !go_on()) {
             stop = true;
             controller_.run_until(controller_.tick());

@@ -36,6 +36,9 @@ struct SimulationOptions {
     std::size_t lanes = kMostLanes;  // most robots of a type stepped at once
     std::string world_file;          // for saved runs
     render::VisualsOf visuals;       // what cameras of the programs see; none: they cannot be read
+    /// Asked between ticks, by all threads that step; true ends the run at once: the window in progress is
+    /// not committed. Empty: never.
+    std::function<bool()> interrupted;
     /// Called in every round: advances a viewer, say. No result may depend on it.
     std::function<void(Bus&)> observer;
     ControllerOptions controller;  // its `simulators` and `clients` are set from here
@@ -59,6 +62,7 @@ class Simulation {
     /// Runs until the world is at `target`. An Error: the run cannot go on (a state not finite, a control
     /// program that threw); the world is intact at tick() and can be saved. `go_on` is called now and then;
     /// false ends the run at the next window's end (at once if it waits for its first Simulators).
+    /// SimulationOptions::interrupted ends it sooner.
     Result<> run_until(Tick target, const std::function<bool()>& go_on = {});
 
     Tick tick() const { return controller_.tick(); }  ///< committed: the world is at its beginning
@@ -138,6 +142,7 @@ class Simulation {
   private:
     Simulation(std::shared_ptr<const Model> model, const SimulationOptions& options,
                std::vector<NamedProgram> programs, const SavedRun* from, std::unique_ptr<Bus> bus);
+    bool is_interrupted() const { return interrupted_ && interrupted_(); }
     void turn();
     /// Advances all roles until done().
     template <class Done>
@@ -153,6 +158,7 @@ class Simulation {
     ThreadPool pool_;
     std::size_t lanes_;  // robots of a type stepped at once
     std::function<void(Bus&)> observer_;
+    std::function<bool()> interrupted_;
     std::uint64_t instance_ = 0;  // of the last role made here
     Controller controller_;
     std::vector<std::unique_ptr<ProgramHost>> hosts_;

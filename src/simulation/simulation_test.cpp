@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include <support/bodies.h>
+#include <atomic>
 #include <filesystem>
 
 #include "journal/journal_writer.h"
@@ -72,6 +73,36 @@ TEST_F(SimulationTest, StopsAtEachTargetAndHasTheStatesThere) {
     }
     run_until(*simulation, kEnd);
     EXPECT_EQ(simulation->hash(), expected_);
+}
+
+/// The window that is in progress when the interrupt comes is not committed.
+TEST_F(SimulationTest, AnInterruptEndsARunWithinAWindowAndLeavesTheStatesOfTheLastOne) {
+    std::atomic<int> asked = 0;
+    std::atomic<bool> interrupts = true;
+    SimulationOptions options;
+    options.controller.window = 100;
+    options.threads = 2;
+    // Once a tick, and a few times a window.
+    options.interrupted = [&] { return interrupts && ++asked > 150; };
+    const auto simulation = std::move(Simulation::create(model_, options)).value();
+    ASSERT_TRUE(simulation->submit(push(100)).ok());
+    ASSERT_TRUE(simulation->run_until(kEnd).ok());
+    const Tick tick = simulation->tick();
+    EXPECT_EQ(tick % 100, 0) << "a part of a window was committed";
+    EXPECT_LT(tick, kEnd);
+    EXPECT_LT(asked, 250) << "it was stepped on after the interrupt";
+    std::vector<std::uint64_t> hashes;
+    for (std::size_t r = 0; r < simulation->states().size(); ++r)
+        hashes.push_back(state_hash(RobotId(r), tick, simulation->states()[r]));
+    EXPECT_EQ(world_hash(model_->hash, hashes), simulation->hash());
+    const SavedRun saved = simulation->saved_run();
+    EXPECT_EQ(saved.tick, tick);
+    interrupts = false;
+    run_until(*simulation, kEnd);
+    EXPECT_EQ(simulation->hash(), expected_) << "it goes on as if nothing had happened";
+    const auto continued = make(model_, 2, &saved);
+    run_until(*continued, kEnd);
+    EXPECT_EQ(continued->hash(), expected_);
 }
 
 TEST_F(SimulationTest, AProfileSumsOverSimulatorsAndChangesNoBit) {

@@ -164,6 +164,23 @@ class Outputs(unittest.TestCase):
         self.assertRegex(output, "[0-9a-f]{16}", "the summary with its hashes")
         self.assertGreater(summary(WORLDS / "pile.sdf", "--from", saved, "--duration", 0)["sim_time_s"], 0.1)
 
+    def test_sigterm_ends_a_run_within_a_window_and_its_journal_is_intact(self):
+        one_second = summary(WORLDS / "pile.sdf", "--headless", "--no-sleep", "--duration", 1)["state_hash"]
+        for members in ((), ("--processes", 2)):
+            with self.subTest(members=members):
+                journal, file = FOLDER / f"cut{len(members)}.journal", FOLDER / "cut.json"
+                # One window, of minutes of stepping.
+                run = subprocess.Popen([ROBOSS, "run", WORLDS / "pile.sdf", "--headless", "--quiet", "--no-sleep", "--window", "1000000",
+                                        "--journal", journal, "--journal-every", "10000", "--json", file, *map(str, members)],
+                                       stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
+                time.sleep(2)
+                run.send_signal(signal.SIGTERM)
+                _, said = run.communicate(timeout=20)
+                self.assertEqual(run.returncode, 130, said)
+                self.assertEqual(json.loads(file.read_text())["ticks"], 0, "the window is not committed")
+                again = summary(WORLDS / "pile.sdf", "--headless", "--no-sleep", "--from", f"{journal}@0", "--until", 1)
+                self.assertEqual(again["state_hash"], one_second)
+
     def test_a_closed_terminal_ends_a_run_with_its_state(self):
         saved = FOLDER / "hung_up.roboss"
         run = subprocess.Popen([ROBOSS, "run", str(WORLDS / "pile.sdf"), "--headless", "--quiet", "--speed", "1", "--save", str(saved)],

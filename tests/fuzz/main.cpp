@@ -14,6 +14,7 @@
 #include <optional>
 #include <tuple>
 
+#include "app/commands/numbers.h"
 #include "core/thread_pool.h"
 #include "fuzz/property.h"
 #include "fuzz/shot.h"
@@ -99,10 +100,10 @@ void add_options(CLI::App& app, Options& o) {
     app.add_option("--kind", o.kinds, "use these kinds of world only (may be repeated; see --list)");
     app.add_option("--dt", o.dt_s, "time step of every world, s")->check(CLI::Range(1e-5, 5e-3));
     app.add_option("--spin", o.spin, "largest initial angular speed of bases and joints, rad/s")
-        ->check(CLI::NonNegativeNumber);
-    app.add_option("--speed", o.speed, "speed of shots, m/s (ghost, tunnel)")->check(CLI::PositiveNumber);
+        ->check(non_negative_number());
+    app.add_option("--speed", o.speed, "speed of shots, m/s (ghost, tunnel)")->check(positive_number());
     app.add_option("--seconds", o.seconds, "simulated time of each seed, s (default: set by each property)")
-        ->check(CLI::PositiveNumber);
+        ->check(positive_number());
     app.add_option("--jobs", o.jobs, "number of seeds run in parallel; results do not depend on it")
         ->check(CLI::Range(1, 1024))
         ->capture_default_str();

@@ -57,7 +57,7 @@ TEST(Property, EnergyOfPassiveRobotsThatCollideNeverGrows) {
 }
 
 TEST(Property, MomentumStaysWhereNothingActsFromOutside) {
-    expect_holds({"momentum", 72, 10});
+    expect_holds({"momentum", 48, 8});
 }
 
 TEST(Property, StatesStayFinite) {

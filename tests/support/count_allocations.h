@@ -2,12 +2,13 @@
 // program.
 #pragma once
 
+#include <atomic>
 #include <cstddef>
 #include <cstdlib>
 #include <new>
 
 namespace {
-std::size_t allocations = 0;  // this program has one thread
+std::atomic<std::size_t> allocations = 0;  // by all threads
 }
 
 // NOLINTBEGIN: replacements of the global operators; inlined, g++ would take malloc and delete for a mismatch

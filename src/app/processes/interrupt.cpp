@@ -3,12 +3,15 @@
 
 #include <unistd.h>
 
+#include <atomic>
 #include <csignal>
 
 namespace roboss {
 namespace {
 
-volatile std::sig_atomic_t g_interrupted = 0;
+// Threads that step read it.
+std::atomic<int> g_interrupted = 0;
+static_assert(std::atomic<int>::is_always_lock_free);
 
 void on_interrupt(int) {
     if (g_interrupted != 0) _exit(130);

@@ -217,6 +217,7 @@ SimulationOptions Run::simulation_options(const SavedRun* from) {
     options.controller.forecast.merge_all = o_.merge_islands;
     options.controller.log_ticks = journal_->log_ticks();
     options.visuals = [this](const Model& model) { return visual_world(model); };
+    options.interrupted = interrupted;
     if (gateway_) options.observer = [gateway = gateway_.get()](Bus& bus) { gateway->advance(bus); };
     options.controller.visuals = [this](const Model& model) { return visual_bytes(model); };
     if (!is_shown()) return options;

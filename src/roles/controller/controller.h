@@ -80,6 +80,10 @@ class Controller {
     /// If set, the run cannot continue; tick() and states are those before the failure.
     const std::optional<Error>& failure() const { return notices_.failure(); }
 
+    /// The window in progress is not committed, and no other begins: the world stays at tick(). States that a
+    /// loss took are brought back first.
+    void abandon_window();
+
     /// Sends RunOver to everybody; nobody answers after that.
     void dismiss(Bus& bus, const std::string& reason);
 

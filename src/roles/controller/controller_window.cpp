@@ -162,6 +162,11 @@ void Controller::discard_window() {
     enter(Phase::kIdle);
 }
 
+void Controller::abandon_window() {
+    target_ = tick();
+    if (phase_ == Phase::kStepping) discard_window();
+}
+
 void Controller::commit() {
     const Round& round = *round_;
     costs_.learn(round, roster_);

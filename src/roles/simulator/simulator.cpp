@@ -25,15 +25,6 @@ bool is_newer(const A& a, const B& b) {
     return std::tie(a.epoch, a.window, a.attempt) > std::tie(b.epoch, b.window, b.attempt);
 }
 
-SteppingOptions stepping(const SimulatorOptions& options) {
-    SteppingOptions stepping{nullptr, nullptr, options.lanes, options.look_up, options.now};
-    if (options.measure_cpu)
-        stepping.clock = options.cpu_clock ? options.cpu_clock : thread_cpu_ns;
-    else
-        stepping.counted = options.counted;
-    return stepping;
-}
-
 bool good_orders(const Model& model, const std::vector<Order>& orders) {
     return std::is_sorted(orders.begin(), orders.end(), comes_before) &&
            std::all_of(orders.begin(), orders.end(),
@@ -72,7 +63,17 @@ Simulator::Simulator(std::shared_ptr<const Model> model, const Address& self, co
       self_(self),
       options_(options),
       store_(*model_),
-      stepper_(model_, pool, stepping(options)) {}
+      stepper_(model_, pool, stepping_options()) {}
+
+SteppingOptions Simulator::stepping_options() const {
+    SteppingOptions stepping{nullptr, nullptr, options_.lanes, options_.look_up, options_.now, nullptr};
+    if (options_.measure_cpu)
+        stepping.clock = options_.cpu_clock ? options_.cpu_clock : thread_cpu_ns;
+    else
+        stepping.counted = options_.counted;
+    stepping.abandons = [this] { return unwanted_ || (options_.abandons && options_.abandons()); };
+    return stepping;
+}
 
 void Simulator::advance(Bus& bus) {
     if (gone_) return;
@@ -81,11 +82,13 @@ void Simulator::advance(Bus& bus) {
     keep_in_touch(bus);
     if (gone_ || !assignment_) return;
     if (!pull_.complete()) return pull_.advance(bus, self_, options_.resend_ms);
-    reported_late_ = cut_ = false;
-    answer_ = stepper_.step(*assignment_, store_, [&](const StepProgress& progress) {
-        return serve_while_stepping(bus, progress);
-    });
+    reported_late_ = cut_ = unwanted_ = false;
+    std::optional<WindowResult> result =
+        stepper_.step(*assignment_, store_,
+                      [&](const StepProgress& progress) { return serve_while_stepping(bus, progress); });
     assignment_.reset();
+    if (!result) return keep_wanted(), handle_later(bus);
+    answer_ = std::move(result);
     bus.send(self_, kControllerAddress, *answer_);
     catch_up(bus);
 }
@@ -94,6 +97,10 @@ void Simulator::advance(Bus& bus) {
 void Simulator::catch_up(Bus& bus) {
     keep_wanted();
     for (const RobotResult& robot : answer_->robots) store_.copy_ahead(robot.robot);
+    handle_later(bus);
+}
+
+void Simulator::handle_later(Bus& bus) {
     for (Envelope& envelope : std::exchange(later_, {})) handle(bus, envelope);
 }
 
@@ -206,6 +213,12 @@ void Simulator::take_states(StateReply& reply) {
     if (early_.size() < kEarlyMost) early_.push_back(std::move(reply));
 }
 
+/// The Controller will not take the result of the assignment in progress.
+bool Simulator::ends_assignment(const Message& message) const {
+    const auto* expelled = std::get_if<Expelled>(&message);
+    return std::holds_alternative<RunOver>(message) || (expelled != nullptr && expelled->simulator == id_);
+}
+
 /// Called while stepping: sends heartbeats and the states of the window's start that others wait for.
 WindowStepper::Next Simulator::serve_while_stepping(Bus& bus, const StepProgress& progress) {
     send_heartbeats(bus);
@@ -218,6 +231,7 @@ WindowStepper::Next Simulator::serve_while_stepping(Bus& bus, const StepProgress
             cut_ = cut_ || (cut->simulator == id_ && same_attempt(*cut, *assignment_));
             continue;
         }
+        if (ends_assignment(envelope.message)) unwanted_ = true;
         const auto* request = std::get_if<StateRequest>(&envelope.message);
         if (request != nullptr && request->tick <= assignment_->from)
             serve(bus, envelope.from, *request);

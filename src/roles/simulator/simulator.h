@@ -3,6 +3,7 @@
 // other Simulators' assignments and decides nothing; it answers a repeated assignment from memory.
 #pragma once
 
+#include <atomic>
 #include <memory>
 #include <optional>
 #include <string>
@@ -30,6 +31,9 @@ struct SimulatorOptions {
     std::size_t lanes = kMostLanes;  // robots stepped at once (StepScratch::use_lanes)
     StageNow now = monotonic_ns;     // measures steps where the Controller asks for it; null: never
     std::string name;                // where it runs, for reports
+    /// Asked by all threads between ticks; true: the assignment in progress is abandoned, because the run
+    /// ends. Empty: never.
+    std::function<bool()> abandons;
 };
 
 class Simulator {
@@ -72,6 +76,9 @@ class Simulator {
     void serve(Bus& bus, const Address& from, const StateRequest& request) const;
     void show(Bus& bus, const ViewDue& due);
     void catch_up(Bus& bus);
+    void handle_later(Bus& bus);
+    SteppingOptions stepping_options() const;
+    bool ends_assignment(const Message& message) const;
     void keep_wanted();
     void keep_in_touch(Bus& bus);
     void send_heartbeats(Bus& bus);
@@ -91,6 +98,7 @@ class Simulator {
     std::optional<Assignment> awaiting_orders_;  // waits for the orders that were sent ahead of it
     std::optional<OrdersAhead> ahead_;
     bool reported_late_ = false, cut_ = false;  // of the assignment
+    std::atomic<bool> unwanted_{false};         // nobody waits for the assignment in progress any more
     StateRequest to_keep_;           // of the assignment: copied later, but before the next assignment begins
     StatePull pull_;                 // of its hand-offs
     std::vector<StateReply> early_;  // that came before their assignment

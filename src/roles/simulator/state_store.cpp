@@ -43,6 +43,10 @@ void StateStore::cut_window(RobotId robot, Tick tick) {
     slots_[robot.index()].end_tick = tick;
 }
 
+void StateStore::abandon_window(RobotId robot) {
+    slots_[robot.index()].end_tick = kNone;
+}
+
 void StateStore::set_aside(std::span<const RobotId> robots, Tick tick) {
     for (const RobotId robot : robots) {
         const RobotState* state = find_in_slot(robot, tick);

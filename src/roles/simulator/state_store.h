@@ -29,6 +29,8 @@ class StateStore {
     const RobotState& end_of(RobotId robot) const { return slots_[robot.index()].end; }
     /// The window ends at `tick` because of a Cut: so does the stepped state.
     void cut_window(RobotId robot, Tick tick);
+    /// The window was abandoned: its start remains.
+    void abandon_window(RobotId robot);
     /// Called before the rest of a window is stepped: keeps the states at the window's start that are here,
     /// since they may be requested again.
     void set_aside(std::span<const RobotId> robots, Tick tick);

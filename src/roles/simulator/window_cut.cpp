@@ -37,6 +37,7 @@ void WindowStepper::step_lockstep(Job& job, std::span<const std::uint32_t> islan
     if (a.lane_group_goes) load_lane_group(job, islands.last(singles), 0);
     std::size_t look_up = options_.look_up;
     for (Tick tick = from; tick < until; ++tick) {
+        if (is_abandoned()) return;
         step_all(job, a, tick);
         if (!is_due(job.assignment.robots.size(), tick + 1 - from, look_up)) continue;
         const double done = static_cast<double>(tick + 1 - from) / static_cast<double>(until - from);

@@ -79,7 +79,9 @@ void WindowStepper::cut_batches(const Assignment& assignment) {
     }
 }
 
-WindowResult WindowStepper::step(const Assignment& assignment, StateStore& store, const Between& between) {
+std::optional<WindowResult> WindowStepper::step(const Assignment& assignment, StateStore& store,
+                                                const Between& between) {
+    abandoned_ = false;
     const std::size_t n = assignment.robots.size();
     if (assignment.measured != measured_) measure(assignment.measured);
     sort_orders(assignment);
@@ -103,12 +105,25 @@ WindowResult WindowStepper::step(const Assignment& assignment, StateStore& store
         batch_offsets_.size() - 1 - large,
         [&](std::size_t b, std::size_t worker) { step_batch(job, large + b, worker); }, [&] { between({}); });
     report_profile(job.result);
+    if (abandoned_) return forget(job), std::nullopt;
     if (job.result.left > 0) return std::move(job.result);
     for (auto& boxes : earlier_) {
         job.result.earlier.insert(job.result.earlier.end(), boxes.begin(), boxes.end());
         boxes.clear();
     }
     return std::move(job.result);
+}
+
+/// Once a thread has seen that the assignment is abandoned, all others leave it, too: whether it has a result
+/// does not depend on who asks when.
+bool WindowStepper::is_abandoned() {
+    if (!abandoned_ && options_.abandons && options_.abandons()) abandoned_ = true;
+    return abandoned_;
+}
+
+void WindowStepper::forget(const Job& job) {
+    for (const RobotId robot : job.assignment.robots) job.store.abandon_window(robot);
+    for (auto& boxes : earlier_) boxes.clear();
 }
 
 /// All threads step an island together if it is more than their share of the work. Such islands are the
@@ -171,8 +186,9 @@ std::span<const Order> WindowStepper::take_orders(std::size_t island, Tick tick,
 void WindowStepper::step_island_through(Job& job, std::size_t island, std::size_t worker) {
     std::size_t next = order_offsets_[island];
     for (Tick tick = job.assignment.from; tick < job.assignment.until; ++tick) {
+        if (is_abandoned()) return;
         if (!step_tick(job, island, tick, take_orders(island, tick, next), worker)) return;
-        if (worker == 0 && is_due(job.robots(island).size(), tick + 1 - job.assignment.from)) job.between({});
+        if (worker == 0 && is_due(weights_[island], tick + 1 - job.assignment.from)) job.between({});
     }
     report_robots(job, island);
 }
@@ -236,6 +252,7 @@ void WindowStepper::step_lane_group_through(Job& job, std::span<const std::uint3
     load_lane_group(job, islands, worker);
     const LaneGroup& c = lane_groups_[worker];
     for (Tick tick = job.assignment.from; tick < job.assignment.until; ++tick) {
+        if (is_abandoned()) return;
         if (!step_lane_group(job, tick, worker)) return step_apart(job, c.islands, worker);
         if (worker == 0 && is_due(c.islands.size(), tick + 1 - job.assignment.from)) job.between({});
     }

@@ -3,9 +3,11 @@
 // which thread steps which island.
 #pragma once
 
+#include <atomic>
 #include <functional>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "core/thread_pool.h"
@@ -33,6 +35,8 @@ struct SteppingOptions {
     std::size_t lanes = kMostLanes;       // robots stepped at once, at most
     std::size_t look_up = 64;             // robots times ticks between two calls of `between` in lockstep
     StageNow now = nullptr;               // measures assignments that are to be measured
+    /// Asked by all threads before each tick; true: the assignment is abandoned. Empty: never.
+    std::function<bool()> abandons = {};
 };
 
 class WindowStepper {
@@ -45,7 +49,9 @@ class WindowStepper {
 
     /// All robots of the assignment must have been started in the store. `between` is called now and then
     /// from the calling thread. The rest of an assignment after a Cut starts with the bounds before it.
-    WindowResult step(const Assignment& assignment, StateStore& store, const Between& between);
+    /// Nothing is returned if it was abandoned: the store then has the states of its start, and no later
+    /// ones.
+    std::optional<WindowResult> step(const Assignment& assignment, StateStore& store, const Between& between);
     std::size_t threads() const { return scratch_.size(); }
 
   private:
@@ -68,6 +74,9 @@ class WindowStepper {
     void cut_batches(const Assignment& assignment);
     std::size_t step_large_batches(Job& job);
     void step_batch(Job& job, std::size_t batch, std::size_t worker);
+    /// Whether the assignment is abandoned. Asked before each tick, so that a long window ends soon.
+    bool is_abandoned();
+    void forget(const Job& job);
     /// An island's orders of this tick; `next`: its first order that was not taken yet.
     std::span<const Order> take_orders(std::size_t island, Tick tick, std::size_t& next) const;
     void step_island_through(Job& job, std::size_t island, std::size_t worker);
@@ -93,9 +102,10 @@ class WindowStepper {
     std::shared_ptr<const Model> model_;
     ThreadPool& pool_;
     SteppingOptions options_;
-    std::vector<StepScratch> scratch_;   // one a thread
-    bool measured_ = false;              // this assignment
-    std::vector<StepProfile> profiles_;  // likewise, of this window
+    std::vector<StepScratch> scratch_;    // one a thread
+    std::atomic<bool> abandoned_{false};  // the assignment
+    bool measured_ = false;               // this assignment
+    std::vector<StepProfile> profiles_;   // likewise, of this window
 
     // flat over the assignment's robots
     std::vector<RobotState*> states_;

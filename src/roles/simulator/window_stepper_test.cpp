@@ -3,8 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <support/bodies.h>
 #include <support/robots.h>
 #include <support/simulation.h>
+#include <atomic>
 
 namespace roboss::test {
 namespace {
@@ -39,7 +41,7 @@ TEST(WindowStepper, StepsTheOthersToTheEndWhenOneFails) {
     }
     ThreadPool pool(1);
     WindowStepper stepper(sim.model, pool, {nullptr, nullptr, 1});
-    const WindowResult result = stepper.step(
+    const WindowResult result = *stepper.step(
         assignment_for(sim, 8), store, [](const StepProgress&) { return WindowStepper::Next::kContinue; });
     for (int i = 0; i < 8; ++i) sim.step();
     ASSERT_EQ(result.islands.size(), 6u);
@@ -67,10 +69,10 @@ TEST(WindowStepper, WhatACutLeavesIsSteppedOnBySomebodyElseToTheSameStates) {
     WindowStepper whole(sim.model, pool, {}), stepper(sim.model, pool, {{}, {}, kMostLanes, 1}),
         other(sim.model, pool, {});
     Assignment assignment = assignment_for(sim, kUntil);
-    const WindowResult expected = whole.step(assignment, whole_store, goes_on);
+    const WindowResult expected = *whole.step(assignment, whole_store, goes_on);
 
     assignment.due_ns = 1;
-    const WindowResult cut = stepper.step(assignment, store, [&](const StepProgress& progress) {
+    const WindowResult cut = *stepper.step(assignment, store, [&](const StepProgress& progress) {
         return progress.done * kUntil < kCut ? WindowStepper::Next::kContinue : WindowStepper::Next::kStop;
     });
     EXPECT_EQ(cut.left, static_cast<std::uint64_t>(kUntil - kCut));
@@ -88,8 +90,8 @@ TEST(WindowStepper, WhatACutLeavesIsSteppedOnBySomebodyElseToTheSameStates) {
     for (std::size_t i = kKept; i < kBalls; ++i)
         other_store.put(sim.ids[i], kCut, RobotState(*store.find(sim.ids[i], kCut)));
     for (std::size_t i = 0; i < kKept; ++i) ASSERT_TRUE(store.start(sim.ids[i], kCut));
-    const WindowResult kept = stepper.step(rest_of(0, kKept), store, goes_on),
-                       given = other.step(rest_of(kKept, kBalls), other_store, goes_on);
+    const WindowResult kept = *stepper.step(rest_of(0, kKept), store, goes_on),
+                       given = *other.step(rest_of(kKept, kBalls), other_store, goes_on);
 
     ASSERT_EQ(kept.earlier.size(), kBalls - kKept);
     for (std::size_t i = 0; i < kBalls; ++i) {
@@ -108,6 +110,60 @@ TEST(WindowStepper, WhatACutLeavesIsSteppedOnBySomebodyElseToTheSameStates) {
             both.max[axis] = std::max(both.max[axis], kept.earlier[i - kKept].swept.max[axis]);
         }
         EXPECT_EQ(both, expected.robots[i].swept) << i;
+    }
+}
+
+/// Boxes on each other beside balls far from each other: islands of several robots, and of one.
+World boxes_and_balls() {
+    World world = lone_balls(6);
+    for (int i = 0; i < 4; ++i)
+        place(world, solid_box(1.0, {0.2, 0.2, 0.2}, surface(0.5)), "box_" + std::to_string(i),
+              {{0, 10, 0.3 * i}, {}});
+    return world;
+}
+
+Assignment with_an_island_of_boxes(const Simulation& sim, Tick until) {
+    Assignment assignment = assignment_for(sim, until);
+    assignment.island_offsets = {0, 1, 2, 3, 4, 5, 6, 10};
+    return assignment;
+}
+
+TEST(WindowStepper, WhatIsAbandonedBetweenTicksHasNoResultAndCanBeSteppedAgainToTheSameStates) {
+    constexpr Tick kUntil = 40;
+    const auto goes_on = [](const StepProgress&) { return WindowStepper::Next::kContinue; };
+    Simulation sim(boxes_and_balls());
+    const Assignment assignment = with_an_island_of_boxes(sim, kUntil);
+    const auto started = [&](StateStore& store) {
+        for (const RobotId robot : sim.ids) store.put(robot, 0, RobotState(sim.states[robot.index()]));
+    };
+    for (const unsigned threads : {1u, 3u}) {
+        ThreadPool pool(threads);
+        StateStore whole_store(*sim.model), store(*sim.model);
+        started(whole_store), started(store);
+        const WindowResult expected =
+            *WindowStepper(sim.model, pool, {}).step(assignment, whole_store, goes_on);
+        std::atomic<int> asked = 0;
+        std::atomic<bool> ends = true;
+        SteppingOptions options;
+        options.abandons = [&] { return ends && ++asked > 7; };
+        WindowStepper stepper(sim.model, pool, options);
+        EXPECT_FALSE(stepper.step(assignment, store, goes_on).has_value()) << threads;
+        EXPECT_GE(asked, 8);
+        EXPECT_LE(asked, 8 + 2 * static_cast<int>(threads)) << "a thread went on";
+        for (const RobotId robot : sim.ids) {
+            EXPECT_FALSE(store.has(robot, kUntil));
+            ASSERT_TRUE(store.has(robot, 0));
+            EXPECT_EQ(state_hash(robot, 0, *store.find(robot, 0)),
+                      state_hash(robot, 0, sim.states[robot.index()]));
+        }
+        ends = false;
+        const std::optional<WindowResult> again = stepper.step(assignment, store, goes_on);
+        ASSERT_TRUE(again.has_value());
+        for (std::size_t i = 0; i < sim.ids.size(); ++i) {
+            EXPECT_EQ(again->robots[i].hash, expected.robots[i].hash) << i;
+            EXPECT_EQ(again->robots[i].swept, expected.robots[i].swept) << i;
+        }
+        EXPECT_EQ(again->earlier.size(), expected.earlier.size());
     }
 }
 
