@@ -37,7 +37,7 @@ double largest_change(const std::vector<RobotState>& before, const std::vector<R
 TEST(StuckRobots, ComeToRestInAPile) {
     const std::unique_ptr<LocalRun> run = make_run("worlds/legged_pile.sdf");
     ASSERT_TRUE(run);
-    ASSERT_TRUE(run->step(1750));
+    ASSERT_TRUE(run->step(2000));  // until 1900 two legs sink against their damping
     double deepest = 0;
     for (const ContactReport& contact : run->contacts()) deepest = std::max(deepest, -contact.gap);
     EXPECT_GT(deepest, 1e-3) << "none is stuck: this world no longer tests it";

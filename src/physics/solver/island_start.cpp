@@ -12,9 +12,39 @@ namespace {
 
 constexpr double kSticking = 0.998;  // of the squared friction bound: beyond, a sweep says that it slides
 
-/// Impulses spread through few robots a sweep.
-int most_sweeps(std::size_t robots) {
-    return robots < 16 ? 60 : 200;
+/// Whether sweeps may settle the part, as they do with free bodies (decisions 0037, 0039): of robots without
+/// motors any pile, for their joints have nothing to hold; else only large ones, where Newton's method is
+/// costly. Sweeps know nothing of torsional and rolling friction and of wheel slip.
+bool may_settle(const SolveProblem<double>& p) {
+    constexpr std::size_t kLarge = 16;  // robots
+    const IslandRows& rows = p.rows;
+    if (!rows.couplings.empty() || !rows.angulars.empty()) return false;
+    if (std::ranges::any_of(rows.contacts, [](const auto& row) { return slip_disc::slips(row.slip); }))
+        return false;
+    if (p.robots.size() >= kLarge) return true;
+    return std::ranges::none_of(rows.joints, [](const JointRow& row) { return row.motor != nullptr; });
+}
+
+SweepPlan sweep_plan(const SolveProblem<double>& p) {
+    constexpr double kStartTolerance = 1e-10;  // from there Newton's method mostly ends at its first try
+    // Impulses spread through few robots a sweep.
+    const int most = p.robots.size() < 16 ? 60 : 200;
+    SweepPlan plan = may_settle(p) ? pile_plan(p.accuracy, most, p.robots.size()) : SweepPlan{.most = most};
+    plan.start_tolerance = kStartTolerance;
+    return plan;
+}
+
+/// A part in which contacts mostly carry loads: it probably does what it did in the last tick.
+bool hardly_moves(const IslandRows& rows) {
+    constexpr double kLittle = 1e-2;  // of the squared impulses
+    double motion = 0, impulses = 0;
+    for (const ContactRow& row : rows.contacts) {
+        const FrictionDisc& slip = row.slip;
+        motion += (row.normal.u * row.normal.u + slip.u_1 * slip.u_1 + slip.u_2 * slip.u_2) /
+                  row.inverse_effective_mass;
+        impulses += row.normal.impulse * row.normal.impulse * row.inverse_effective_mass;
+    }
+    return motion < kLittle * impulses;
 }
 
 /// The impulse between the row's bounds, or at one of them.
@@ -83,17 +113,44 @@ void IslandSolver::step_as_swept(const Problem& p, std::vector<double>& v, Repor
     report.residual = balance(p);
 }
 
-/// Sweeps, then coupled steps of Newton's method. Where these begin close to the balance and fail, few rows
-/// are other than they seem: a few sweeps from there settle them. Where they cannot begin, the sweeps go on.
-/// In the end Newton's method with the friction bounds that the sweeps found. False, and back to the start,
-/// if momentum does not balance then.
+/// A pile at rest: coupled steps of Newton's method from where every contact does what it did in the last
+/// tick. False, and back to the start, if they do not end.
+bool IslandSolver::continue_at_rest(const Problem& p, std::vector<double>& v, Report& report) {
+    if (p.again || !hardly_moves(p.rows)) return false;
+    Lockstep<double> alone;
+    carried_.clear();
+    for (const ContactRow& row : p.rows.contacts) carried_.push_back(row.normal.impulse);
+    start_as_expected(p, alone, v, report);
+    if (report.residual <= plan_.couple_from && solve_coupled(p, alone, v, report)) return true;
+    return_to_beginning(p, v);
+    for (std::size_t c = 0; c < carried_.size(); ++c) p.rows.contacts[c].normal.impulse = carried_[c];
+    return false;
+}
+
+void IslandSolver::return_to_beginning(const Problem& p, std::vector<double>& v) {
+    v = v_before_sweeps_;
+    take_velocities(p, v);
+    friction::set_bounds(p.rows, start_bounds_);
+}
+
+/// Sweeps, if they settle the part. Else coupled steps of Newton's method from where they ended. Where these
+/// begin close to the balance and fail, few rows are other than they seem: a few sweeps from there settle
+/// them. Where they cannot begin, the sweeps go on. In the end Newton's method from the friction bounds that
+/// the sweeps found. False, and back to the start, if momentum does not balance then.
 bool IslandSolver::solve_by_sweeps(const Problem& p, std::vector<double>& v, Report& report) {
     constexpr int kTries = 6, kLongMost = 3;  // of them, from so many series of sweeps
     constexpr int kFewSweeps = 20;
     Lockstep<double> alone;
     v_before_sweeps_ = v;
-    const int most = most_sweeps(p.robots.size());
-    sweeps_.run(p, most, v);
+    if (hessian_.couples() && continue_at_rest(p, v, report)) return true;
+    const SweepPlan plan = sweep_plan(p);
+    const SweepReport swept = sweeps_.run(p, plan, v);
+    if (swept.settled) {
+        take_swept(p, v);
+        report.iterations += swept.iterations();
+        report.residual = 0;
+        return true;
+    }
     for (int tries = 1, longs = 1; hessian_.couples(); ++tries) {
         step_as_swept(p, v, report);
         const bool is_close = report.residual <= plan_.couple_from;
@@ -102,14 +159,12 @@ bool IslandSolver::solve_by_sweeps(const Problem& p, std::vector<double>& v, Rep
         if (is_close)
             sweeps_.take_up(p, kFewSweeps, v);  // from the impulses at which Newton's method gave up
         else
-            ++longs, sweeps_.go_on(p, most, v);
+            ++longs, sweeps_.go_on(p, plan.most, v);
     }
     // Sweeps that do not converge still tell the friction bounds better than anything else.
     step_as_swept(p, v, report);
-    if (Newton::iterate(p, alone, v, report, hessian_.couples())) return true;
-    v = v_before_sweeps_;
-    take_velocities(p, v);
-    friction::set_bounds(p.rows, start_bounds_);
+    if (Newton::iterate(p, alone, v, report, false)) return true;
+    return_to_beginning(p, v);
     return false;
 }
 
@@ -120,14 +175,14 @@ void IslandSolver::settle_for_sweeps(Problem p, std::vector<double>& v) {
     IslandRows& rows = p.rows;
     p.again = false;
     for (ContactRow& row : rows.contacts) row.normal.impulse = 0;
-    sweeps_.run(p, kSweeps, v);
+    sweeps_.run(p, {.most = kSweeps}, v);
     take_swept(p, v);
 }
 
 /// The velocities of a pile by sweeps alone.
 void IslandSolver::take_sweeps(const Problem& p, std::vector<double>& v, Report& report) {
     constexpr int kSweeps = 40;
-    sweeps_.run(p, kSweeps, v);
+    sweeps_.run(p, {.most = kSweeps}, v);
     take_swept(p, v);
     set_gradient(p);
     report.residual = 0;

@@ -85,7 +85,7 @@ TEST_P(NetHessians, BalanceAsTheMatrixOfTheTree) {
     sparse.scratch.measure_stages([] { return std::uint64_t{0}; });
     dense.scratch.measure_stages([] { return std::uint64_t{0}; });
     dense.model = in_coordinates_of_trees(*sparse.model);
-    double worst = 0, friction = 0;
+    double worst = 0, friction = 0, friction_by_tree = 0;
     int contacts = 0, by_parts = 0, by_tree = 0;
     constexpr int kTicks = 400;
     for (int i = 0; i < kTicks; ++i) {
@@ -95,9 +95,8 @@ TEST_P(NetHessians, BalanceAsTheMatrixOfTheTree) {
         dense.step();
         friction = std::fmax(friction, sparse.report.profile.solver.friction_error);
         by_parts += sparse.report.iterations, by_tree += dense.report.iterations;
-        // The matrix of the tree may miss Coulomb's law by a tenth in a pile; then it is no measure.
-        if (dense.report.profile.solver.friction_error < 1e-3)
-            worst = std::fmax(worst, difference(sparse.states, dense.states));
+        friction_by_tree = std::fmax(friction_by_tree, dense.report.profile.solver.friction_error);
+        worst = std::fmax(worst, difference(sparse.states, dense.states));
     }
     tell("largest residual", sparse.residual_max);
     tell("iterations, body by body", by_parts);
@@ -105,10 +104,12 @@ TEST_P(NetHessians, BalanceAsTheMatrixOfTheTree) {
     tell("largest difference after one tick", worst);
     tell("most contacts", contacts);
     tell("largest error of a friction bound", friction);
+    tell("the same, in the coordinates of the trees", friction_by_tree);
     EXPECT_LT(sparse.residual_max, 1e-8);
     EXPECT_LT(friction, 2e-4);
-    EXPECT_LT(by_parts, 1.5 * by_tree + kTicks);
-    EXPECT_LT(worst, GetParam() == 2 ? 0.1 : 1e-3);
+    EXPECT_LT(friction_by_tree, 2e-4);
+    EXPECT_LT(by_parts, 1.7 * by_tree + kTicks);
+    EXPECT_LT(worst, GetParam() == 2 ? 5e-3 : 1e-3);
     EXPECT_GE(contacts, GetParam() == 0 ? 0 : GetParam() == 3 ? 2 : 20);
 }
 

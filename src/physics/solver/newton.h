@@ -63,7 +63,7 @@ struct Plan {
     int far_max = 16;               // steps far from the balance
     int coupled_steps = 8, halvings = 0;
     double progress = 0.5;  // of the residual in a coupled step, at least
-    int checks = 0;         // of the friction bounds, once momentum balances
+    int checks = 4;         // of the friction bounds, once momentum balances
 };
 
 }  // namespace newton

@@ -116,7 +116,7 @@ double wanted(const BoundedRow& row, double u, double impulse) {
 
 TEST_F(SweptIsland, ConvergesToImpulsesThatFitTheirVelocities) {
     RowSweeps sweeps;
-    sweeps.run(problem(), 3000, v_);
+    sweeps.run(problem(), {.most = 3000}, v_);
     for (int i = 0; i < 10; ++i) sweeps.go_on(problem(), 3000, v_);
     take(sweeps);
     // Momentum: M v = impulse + J^T of what was found.
@@ -161,13 +161,13 @@ TEST_F(SweptIsland, ConvergesToImpulsesThatFitTheirVelocities) {
 
 TEST_F(SweptIsland, GoesOnFromWhereItWasWhenSolvedAgain) {
     RowSweeps sweeps;
-    sweeps.run(problem(), 3000, v_);
+    sweeps.run(problem(), {.most = 3000}, v_);
     for (int i = 0; i < 5; ++i) sweeps.go_on(problem(), 3000, v_);
     take(sweeps);
     const std::vector<double> v = v_;
     RowSweeps::Problem again = problem();
     again.again = true;
-    sweeps.run(again, 1, v_);
+    sweeps.run(again, {.most = 1}, v_);
     for (std::size_t i = 0; i < v.size(); ++i) EXPECT_NEAR(v_[i], v[i], 1e-4 * std::fabs(v[i]) + 1e-5);
 }
 

@@ -38,6 +38,8 @@ class IslandSolver : Newton<double, Hessian> {
     enum class Pushing : char { kLow, kBetween, kHigh };  // where a row's impulse is in its bounds
     void solve_any(const Problem& p, std::vector<double>& v, Report& report);
     // island_start.cpp
+    bool continue_at_rest(const Problem& p, std::vector<double>& v, Report& report);
+    void return_to_beginning(const Problem& p, std::vector<double>& v);
     bool solve_by_sweeps(const Problem& p, std::vector<double>& v, Report& report);
     void step_as_swept(const Problem& p, std::vector<double>& v, Report& report);
     void expect_swept(const Problem& p);
@@ -53,6 +55,7 @@ class IslandSolver : Newton<double, Hessian> {
     RowSweeps sweeps_;
     std::vector<double> start_bounds_;  // friction bounds of the last tick
     std::vector<double> v_before_sweeps_;
+    std::vector<double> carried_;   // normal impulses of the last tick
     std::vector<Pushing> pushing_;  // bounded rows, while the displacement is solved
     std::vector<double> changes_;   // interior point: steps of the impulses
 };
