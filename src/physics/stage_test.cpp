@@ -102,10 +102,10 @@ TEST(SolverProfile, PartsOfAnIslandAreSolvedByThemselves) {
 }
 
 TEST(SolverProfile, CountsFrictionThatMissesItsTolerance) {
-    World world = random_crowd(23, 30);
-    world.accuracy.push_back({"", {{"friction_tolerance", 1e-10}}, {}});
+    World world = random_crowd(10, 30);
+    world.accuracy.push_back({"", {{"friction_tolerance", 1e-10}, {"friction_max", 2}}, {}});
     Simulation sim(world);
-    stir(sim, 23);
+    stir(sim, 10);
     const SolverProfile profile = solver_profile_of(sim, 150);
     EXPECT_GT(profile.friction_misses, 0u);
     EXPECT_LT(profile.friction_misses, profile.friction_solves);

@@ -60,10 +60,17 @@ void IslandSolver::solve_any(const Problem& p, std::vector<double>& v, Report& r
 }
 
 SolveReport IslandSolver::solve(const Problem& p, std::vector<double>& v) {
-    constexpr double kUseless = 1e-2;  // of the residual
+    constexpr double kUseless = 1e-2;       // of the residual
+    constexpr double kWrongFriction = 0.5;  // relative to the largest normal impulse
     Report report;
     solve_any(p, v, report);
-    if (!(report.residual <= kUseless)) settle_for_sweeps(p, v);
+    const bool is_wrong = !p.position && p.robots.size() > 1 && p.rows.angulars.empty() &&
+                          friction::bound_error(p.rows).relative() > kWrongFriction;
+    if (is_wrong || !(report.residual <= kUseless)) {
+        settle_for_sweeps(p, v);
+        set_gradient(p);
+        report.residual = imbalance(p);
+    }
     return {static_cast<int>(report.iterations), report.residual};
 }
 
