@@ -43,7 +43,7 @@ bool BodySolver::solve(const BodyPart& part, std::vector<double>& v, SolveReport
     position_ = part.problem.position;
     iterations_ = 0, swept_ = analysed_ = false;
     take(part, v);
-    fills_up_ = find_fill();
+    fill_ = sweeps_may_settle(accuracy) ? find_fill() : Fill::kLittle;
     bool balances = position_ ? settle_displacement(part) : settle_velocities(accuracy);
     if (!balances) {
         prepare_factor();
@@ -117,14 +117,14 @@ void BodySolver::prepare_factor() {
     s.upper.resize(s.order.edges()), s.lower.resize(s.order.edges());
 }
 
-/// True where each iteration of Newton's method would take as long as many sweeps: the factor of a deep pile
-/// fills up, that of a stack or of a low wall does not.
-bool BodySolver::find_fill() {
+/// Much in a deep pile, little in a stack or a low wall. Begins the analysis of the factor, and ends it if
+/// there is little.
+Fill BodySolver::find_fill() {
     constexpr std::size_t kLargePile = 256, kMostUpdates = 100;  // bodies; updates of blocks, by body
     const std::size_t bodies = island_.bodies.size();
-    if (bodies < kLargePile) return false;
+    if (bodies < kLargePile) return Fill::kLittle;
     analysed_ = island_.order.analyse(bodies, island_.points, kMostUpdates * bodies);
-    return !analysed_;
+    return analysed_ ? Fill::kLittle : Fill::kMuch;
 }
 
 void BodySolver::keep_start() {
@@ -201,10 +201,9 @@ bool BodySolver::settle_velocities(const Accuracy& accuracy) {
     }
     const int most = alone ? sweeps_alone(bodies) : sweeps_to_start(bodies);
     keep_start();
-    const bool may_settle = !alone && bodies >= kPile;
-    const SweepReport report =
-        sweep(may_settle ? pile_plan(accuracy, most, fills_up_) : SweepPlan{.most = most});
-    if (!swept_ || !(alone || report.settled || (may_settle && fills_up_))) return false;
+    const bool is_pile = !alone && bodies >= kPile;
+    const SweepReport report = sweep(is_pile ? pile_plan(accuracy, most, fill_) : SweepPlan{.most = most});
+    if (!swept_ || !(alone || report.settled || (is_pile && fill_ == Fill::kMuch))) return false;
     take_swept();
     iterations_ += report.iterations();
     return true;
@@ -213,9 +212,9 @@ bool BodySolver::settle_velocities(const Accuracy& accuracy) {
 /// Likewise the displacement of a pile, with a tighter tolerance where a point is left deep.
 bool BodySolver::settle_displacement(const BodyPart& part) {
     constexpr int kRounds = 3;
-    SweepPlan plan = pile_plan(part.problem.accuracy, 1, fills_up_);
-    if (island_.bodies.size() < kPile || plan.settle_tolerance == 0) return false;
-    if (!fills_up_ && hardly_moves()) return false;
+    SweepPlan plan = pile_plan(part.problem.accuracy, 1, fill_);
+    if (island_.bodies.size() < kPile || !sweeps_may_settle(part.problem.accuracy)) return false;
+    if (fill_ == Fill::kLittle && hardly_moves()) return false;
     keep_start();
     bool settled = true;
     for (int round = 0; round < kRounds && settled; ++round) {
@@ -228,7 +227,7 @@ bool BodySolver::settle_displacement(const BodyPart& part) {
         }
         plan.tighten(1e-2);
     }
-    if (swept_ && fills_up_) {
+    if (swept_ && fill_ == Fill::kMuch) {
         take_swept();
         return true;
     }

@@ -43,7 +43,7 @@ class BodySolver {
   private:
     void take(const BodyPart& part, const std::vector<double>& v);
     void prepare_factor();
-    bool find_fill();
+    Fill find_fill();
     void take_body(const Mechanics<double>& robot, const double* v, FreeBody& body) const;
     void take_point(const BodyPart& part, const ContactRow& row, BodyPoint& point) const;
     bool iterate(const Accuracy& accuracy);
@@ -74,7 +74,7 @@ class BodySolver {
     bool position_ = false;
     bool swept_ = false;     // sweeps have found velocities; v_start_ holds those before
     bool analysed_ = false;  // the order of the factor is known
-    bool fills_up_ = false;  // find_fill()
+    Fill fill_ = Fill::kLittle;
     double residual_ = 0;
     int iterations_ = 0;
     std::vector<std::uint32_t> local_;  // by robot of the problem: its body

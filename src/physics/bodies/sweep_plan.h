@@ -33,15 +33,24 @@ struct SweepReport {
     int iterations() const { return sweeps / 12; }
 };
 
+/// True where sweeps may settle piles, as in `standard` and `fast`.
+inline bool sweeps_may_settle(const Accuracy& accuracy) {
+    return accuracy.tolerance >= 1e-9;
+}
+
+/// What a factor of a part's matrix would hold beside the matrix itself. Where it is much, each iteration of
+/// Newton's method takes as long as many sweeps.
+enum class Fill { kLittle, kMuch };
+
 /// The plan for a pile: to settle where the accuracy leaves that to sweeps, as in `standard`. They miss the
 /// velocities by about a thousandth of how fast the contact points move (root mean square).
 ///
-/// `fills_up`: Newton's method would take far longer than sweeps. Then they may settle what rests, too.
-inline SweepPlan pile_plan(const Accuracy& accuracy, int most, bool fills_up) {
+/// Where a factor would fill up, they may settle what rests, too.
+inline SweepPlan pile_plan(const Accuracy& accuracy, int most, Fill fill) {
     SweepPlan plan{.most = most};
-    if (!(accuracy.tolerance >= 1e-9)) return plan;
+    if (!sweeps_may_settle(accuracy)) return plan;
     plan.settle_tolerance = 1e-7, plan.most_to_settle = 300;
-    if (!fills_up) return plan;
+    if (fill == Fill::kLittle) return plan;
     plan.most_to_settle = 200;
     plan.most = 100, plan.start_tolerance = 1e-12, plan.rest_settles = true;
     return plan;

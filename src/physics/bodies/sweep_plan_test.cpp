@@ -42,7 +42,7 @@ TEST(SweepProgress, SomethingFastDoesNotLoosenWhatRestsBesideIt) {
 }
 
 TEST(SweepProgress, AtRestALargePartSettlesATighterTolerance) {
-    const SweepPlan plan = pile_plan({}, 80, true);
+    const SweepPlan plan = pile_plan({}, 80, Fill::kMuch);
     ASSERT_TRUE(plan.rest_settles);
     SweepProgress progress(plan);
     progress.begin(1, 0);
@@ -54,7 +54,7 @@ TEST(SweepProgress, AtRestALargePartSettlesATighterTolerance) {
     for (int i = 1; i < plan.most; ++i) EXPECT_FALSE(fails.ends(1e-9));
     EXPECT_TRUE(fails.ends(1e-9));
     EXPECT_FALSE(fails.report().settled);
-    EXPECT_FALSE(pile_plan({}, 80, false).rest_settles);
+    EXPECT_FALSE(pile_plan({}, 80, Fill::kLittle).rest_settles);
 }
 
 TEST(SweepProgress, ATightenedPlanGoesOn) {

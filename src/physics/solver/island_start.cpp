@@ -29,7 +29,7 @@ SweepPlan sweep_plan(const SolveProblem<double>& p) {
     constexpr double kStartTolerance = 1e-10;  // from there Newton's method mostly ends at its first try
     // Impulses spread through few robots a sweep.
     const int most = p.robots.size() < 16 ? 60 : 200;
-    SweepPlan plan = may_settle(p) ? pile_plan(p.accuracy, most, p.robots.size()) : SweepPlan{.most = most};
+    SweepPlan plan = may_settle(p) ? pile_plan(p.accuracy, most, Fill::kLittle) : SweepPlan{.most = most};
     plan.start_tolerance = kStartTolerance;
     return plan;
 }
