@@ -19,8 +19,6 @@ constexpr double kSticking = 0.998;  // of the squared friction bound: beyond, a
 constexpr double kRounding = newton::kRounding<double>;
 
 constexpr std::size_t kPile = 32;  // bodies: from here on sweeps may settle what moves
-constexpr std::size_t kLargePile =
-    256;  // bodies: from here on they may settle what rests, and have the last word
 
 /// Sweeps from which Newton's method starts. Impulses spread through few bodies a sweep. In a large part
 /// twelve sweeps cost as much as an iteration; in a small one, which leaves lanes empty, three.
@@ -43,7 +41,8 @@ bool BodySolver::solve(const BodyPart& part, std::vector<double>& v, SolveReport
     position_ = part.problem.position;
     iterations_ = 0, swept_ = analysed_ = false;
     take(part, v);
-    fill_ = sweeps_may_settle(accuracy) ? find_fill() : Fill::kLittle;
+    const bool by_sweeps_alone = !position_ && sweeps_suffice(accuracy);
+    fill_ = sweeps_may_settle(accuracy) && !by_sweeps_alone ? find_fill() : Fill::kLittle;
     bool balances = position_ ? settle_displacement(part) : settle_velocities(accuracy);
     if (!balances) {
         prepare_factor();

@@ -23,7 +23,10 @@ struct SweepPlan {
     double least = 1e-9;          // of the tolerance times motion / impulses: below, the part is at rest
 
     /// For sweeps that go on from what others settled.
-    void tighten(double factor) { settle_tolerance *= factor, least *= factor; }
+    void tighten(double factor) {
+        settle_tolerance *= factor, least *= factor;
+        if (rest_settles) start_tolerance *= factor;
+    }
 };
 
 struct SweepReport {

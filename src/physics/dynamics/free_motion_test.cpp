@@ -34,6 +34,28 @@ TEST(FreeMotion, TumblingBlockKeepsEnergyAndAngularMomentum) {
     EXPECT_LT(relative_change(now.linear, momentum.linear), 1e-13);
 }
 
+/// Cubes, bricks, plates, rods and needles. Angular momentum of those that are no rods stays to rounding.
+TEST(FreeMotion, LoneBodiesOfAnyProportionsGainNoEnergy) {
+    double most_drift = 0;
+    for (const Vec3& size :
+         {Vec3{1, 1, 1}, {1, 2, 1.5}, {1, 1, 0.1}, {1, 3, 2.5}, {0.1, 0.1, 1}, {0.002, 0.002, 1}})
+        for (const double speed : {10.0, 100.0, 300.0}) {  // rad/s
+            World world = empty_world(2e-3, {});
+            place(world, solid_box(2.0, size, surface(0.5)), "body", {{}, from_rpy(0.3, 0.2, 0.1)});
+            Simulation sim(world);
+            sim.states[0].v = {0.3 * speed, 0.8 * speed, 0.5 * speed, 1, 2, 3};
+            const double energy = sim.energy();
+            const Momentum momentum = sim.momentum();
+            sim.run(1);
+            EXPECT_LT(sim.energy(), (1 + 3e-5) * energy) << size.x << ' ' << size.z << ' ' << speed;
+            const double drift = relative_change(sim.momentum().angular, momentum.angular);
+            if (size.x > 0.5) most_drift = std::fmax(most_drift, drift);
+            EXPECT_LT(drift, 1e-9);
+        }
+    tell("largest relative drift of the angular momentum in a second", most_drift);
+    EXPECT_LT(most_drift, 1e-12);
+}
+
 TEST(FreeMotion, ThrownBlockFollowsTheParabola) {
     Simulation sim(tumbling_block({0, 0, -9.81}));
     sim.states[0].v = {0.05, 3.0, 0.05, 1, 2, 30};

@@ -234,7 +234,7 @@ void advance_part(const Model& model, double dt, const SteadyRows& rows, RobotWo
 
 int parts_of_tick(const RobotType& type, double fastest, double dt) {
     // In a net, which others hold, a body that turns fast swings to and fro: less exact will do.
-    constexpr double kTurnOfBody = 0.1, kTurnOfTree = 0.25, kTurnOfNet = 0.16;  // rad
+    constexpr double kTurnOfBody = 0.05, kTurnOfTree = 0.25, kTurnOfNet = 0.16;  // rad
     constexpr double kPartsMax = 64;
     const double turn = type.dofs.empty() ? kTurnOfBody : is_net(type) ? kTurnOfNet : kTurnOfTree;
     return static_cast<int>(std::ceil(std::clamp(std::sqrt(fastest) * dt / turn, 1.0, kPartsMax)));

@@ -390,8 +390,9 @@ void advance_freely(const Model& model, RobotWork& work, FreeBuffer& buffer) {
     const double slow =
         work.type->dofs.empty() ? 0.005 : 0.02;  // rad in a tick: the methods' errors are small
     const double fastest = fastest_turn(work);
-    if (is_lone_body(model, work) && fastest * model.dt_s * model.dt_s < kTurnMost * kTurnMost)
-        return advance_lone_body(model, fastest, work);
+    if (is_lone_body(model, work) && fastest * model.dt_s * model.dt_s < kTurnMost * kTurnMost &&
+        advance_lone_body(model, fastest, work))
+        return;
     const bool is_slow = fastest * model.dt_s * model.dt_s < slow * slow;
     if (is_slow && !work.type->has_equalities()) return advance_steadily(model, work, {}, fastest, buffer);
     SolvedTick free;

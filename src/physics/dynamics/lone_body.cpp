@@ -1,7 +1,7 @@
 // See lone_body.h.
 #include "physics/dynamics/lone_body.h"
 
-#include <cmath>
+#include <algorithm>
 
 #include "model/joint_motion.h"
 #include "physics/dynamics/body_impulses.h"
@@ -10,13 +10,15 @@
 namespace roboss {
 namespace {
 
-/// The inverse of the body's inertia about its centre of mass, axes of the body.
-Sym3T<double> inverse_inertia(const Body& body) {
+constexpr double kGrowth = 1e-6;  // of the energy of the rotation in a tick: more is not taken
+
+/// True if its axes are principal axes and no moment is much smaller than another: the momentum divided by a
+/// small one would enlarge the errors of the orientation.
+bool is_compact(const Body& body) {
+    constexpr double kLeast = 0.2;  // of the greatest moment
     const Mat3& I = body.inertia_C;
-    if (has_principal_axes(body)) return {1 / I.r0.x, 1 / I.r1.y, 1 / I.r2.z, 0, 0, 0};
-    const Vec3 a = cross(I.r1, I.r2), b = cross(I.r2, I.r0), c = cross(I.r0, I.r1);
-    const double scale = 1 / dot(I.r0, a);
-    return {a.x * scale, b.y * scale, c.z * scale, a.y * scale, a.z * scale, b.z * scale};
+    const auto [least, greatest] = std::minmax({I.r0.x, I.r1.y, I.r2.z});
+    return has_principal_axes(body) && least > kLeast * greatest;
 }
 
 /// R^T v
@@ -26,10 +28,13 @@ Vec3 turned_back(const Mat3& R, const Vec3& v) {
 
 /// Torque-free rotation: dq/dt = w q / 2 with w = R I^-1 R^T L and the angular momentum L constant.
 struct Rotation {
-    Sym3T<double> inverse;  // of the inertia, axes of the body
-    Vec3 momentum;          // kg m^2/s, world axes
+    Vec3 inverse;   // of the principal moments
+    Vec3 momentum;  // kg m^2/s, world axes
 
-    Vec3 velocity(const Mat3& R) const { return R * (inverse * turned_back(R, momentum)); }
+    Vec3 velocity(const Mat3& R) const {
+        const Vec3 L = turned_back(R, momentum);
+        return R * Vec3{inverse.x * L.x, inverse.y * L.y, inverse.z * L.z};
+    }
 
     Quat rate(const Quat& q) const {
         const Vec3 half = velocity(to_matrix(q)) * 0.5;
@@ -57,21 +62,26 @@ bool is_lone_body(const Model& model, const RobotWork& work) {
         return false;
     if (!work.state->wrenches.empty() || !type.drags.empty() || type.feels_flow) return false;
     const Body& body = type.bodies[0];
+    if (!is_compact(body)) return false;
     return body.gravity_mass == body.mass || body.gravity_mass == 0 || model.gravity == Vec3{};
 }
 
-void advance_lone_body(const Model& model, double fastest, RobotWork& work) {
+bool advance_lone_body(const Model& model, double fastest, RobotWork& work) {
     const Body& body = work.type->bodies[0];
     const BodyWork& start = work.bodies[0];
     RobotState& state = *work.state;
     const double dt = model.dt_s;
     const Sym3T<double> inertia = rotated_inertia(body, start);
-    const Rotation rotation{inverse_inertia(body), inertia * start.velocity.angular};
+    const Mat3& I = body.inertia_C;
+    const Rotation rotation{{1 / I.r0.x, 1 / I.r1.y, 1 / I.r2.z}, inertia * start.velocity.angular};
     const int parts = parts_of_tick(*work.type, fastest, dt);
     Quat q = get_quat(state.q.data() + 3);
     for (int i = 0; i < parts; ++i) q = rotation.after(q, dt / parts);
     const Mat3 R = to_matrix(q);
     const Vec3 angular = rotation.velocity(R), arm = R * body.p_BC;
+    const double before_J = dot(start.velocity.angular, rotation.momentum),
+                 after_J = dot(angular, rotation.momentum);  // twice the energy of the rotation
+    if (!(after_J <= (1 + kGrowth) * before_J)) return false;
     const Vec3 acceleration = model.gravity * (body.gravity_mass / body.mass);
     const Vec3 before = start.velocity.linear + cross(start.velocity.angular, start.centre);
     const Vec3 linear = before + acceleration * dt - cross(angular, arm);
@@ -79,6 +89,7 @@ void advance_lone_body(const Model& model, double fastest, RobotWork& work) {
     put_quat(state.q.data() + 3, q);
     for (std::size_t i = 0; i < 3; ++i)
         state.q[i] += moved[i], state.v[i] = angular[i], state.v[3 + i] = linear[i];
+    return true;
 }
 
 }  // namespace roboss

@@ -6,12 +6,13 @@
 
 namespace roboss {
 
-/// True for a robot of one body that no joint, drag, fluid or wrench acts on and that gravity pulls at its
-/// centre of mass.
+/// True for a robot of one body, neither rod nor needle, that no joint, drag, fluid or wrench acts on and
+/// that gravity pulls at its centre of mass.
 bool is_lone_body(const Model& model, const RobotWork& work);
 
 /// Moves a placed robot that is_lone_body() by one tick, by a Runge-Kutta method of fourth order. A tick in
 /// which it turns far is cut into several steps. `fastest`: the square of its angular velocity, (rad/s)^2.
-void advance_lone_body(const Model& model, double fastest, RobotWork& work);
+/// False, and nothing has moved, if it would gain energy.
+bool advance_lone_body(const Model& model, double fastest, RobotWork& work);
 
 }  // namespace roboss

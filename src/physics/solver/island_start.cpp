@@ -14,13 +14,11 @@ constexpr double kSticking = 0.998;  // of the squared friction bound: beyond, a
 
 /// Whether sweeps may settle the part, as they do with free bodies (decisions 0037, 0039): of robots without
 /// motors any pile, for their joints have nothing to hold; else only large ones, where Newton's method is
-/// costly. Sweeps know nothing of torsional and rolling friction and of wheel slip.
+/// costly.
 bool may_settle(const SolveProblem<double>& p) {
     constexpr std::size_t kLarge = 16;  // robots
     const IslandRows& rows = p.rows;
-    if (!rows.couplings.empty() || !rows.angulars.empty()) return false;
-    if (std::ranges::any_of(rows.contacts, [](const auto& row) { return slip_disc::slips(row.slip); }))
-        return false;
+    if (!rows.couplings.empty() || !sweeps_know_friction(rows)) return false;
     if (p.robots.size() >= kLarge) return true;
     return std::ranges::none_of(rows.joints, [](const JointRow& row) { return row.motor != nullptr; });
 }
@@ -175,7 +173,7 @@ void IslandSolver::settle_for_sweeps(Problem p, std::vector<double>& v) {
     IslandRows& rows = p.rows;
     p.again = false;
     for (ContactRow& row : rows.contacts) row.normal.impulse = 0;
-    sweeps_.run(p, {.most = kSweeps}, v);
+    sweeps_.run(p, {.most = kSweeps, .start_tolerance = 1e-12}, v);
     take_swept(p, v);
 }
 

@@ -437,7 +437,7 @@ MaskOf<T> Newton<T, Matrix>::iterate(const SolveProblem<T>& p, Lockstep<T>& toge
             stalls = stalls_now ? stalls + 1 : 0;
             best = settled ? smaller(best, report.residual) : T(1);
             if (settled && (together(report.residual <= tolerance(p)) || stalls >= 3)) {
-                if (stays_settled || checks == plan_.checks) break;
+                if (stays_settled) break;
                 const T error = friction::bound_error(p.rows).relative();
                 if (together(error <= friction_tolerance(p))) return true;
                 if (checks == 0 || together(error < checked_error)) {
@@ -445,6 +445,7 @@ MaskOf<T> Newton<T, Matrix>::iterate(const SolveProblem<T>& p, Lockstep<T>& toge
                     v_checked_ = v;
                     friction::keep_bounds(p.rows, bounds_checked_);
                 }
+                if (checks == plan_.checks) break;
                 settled = false, stalls = 0, best = 1;
                 // Every other check gets one more series of coupled steps.
                 coupled_tries = ++checks % 2 == 0 ? kCoupledTries : kCoupledTries - 1;
@@ -452,7 +453,7 @@ MaskOf<T> Newton<T, Matrix>::iterate(const SolveProblem<T>& p, Lockstep<T>& toge
             }
         }
         if (together(report.residual > T(kFar))) ++far;
-        if (far > far_max || i == p.accuracy.newton_max) {
+        if (far > far_max || i >= p.accuracy.newton_max) {
             if (checks == 0) return report.residual <= T(newton::kRoughly);
             break;
         }

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/pair.h"
+#include "physics/solver/slip_disc.h"
 
 namespace roboss {
 namespace {
@@ -179,6 +180,12 @@ void RowSweeps::take_velocities(const Problem& p, std::vector<double>& v) const 
             to[i] =
                 y[i] * root[i] - path::dot(factor + paths.row(i), paths.path(i), 0, paths.length(i) - 1, to);
     }
+}
+
+bool sweeps_know_friction(const IslandRows& rows) {
+    return rows.angulars.empty() && std::ranges::none_of(rows.contacts, [](const ContactRow& row) {
+               return slip_disc::slips(row.slip);
+           });
 }
 
 }  // namespace roboss

@@ -19,6 +19,10 @@
 
 namespace roboss {
 
+/// True where all friction is that of contacts by Coulomb's law: sweeps know nothing of torsional and rolling
+/// friction and of wheel slip.
+bool sweeps_know_friction(const IslandRows& rows);
+
 class RowSweeps {
   public:
     using Problem = SolveProblem<double>;

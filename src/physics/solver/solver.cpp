@@ -64,7 +64,7 @@ SolveReport IslandSolver::solve(const Problem& p, std::vector<double>& v) {
     constexpr double kWrongFriction = 0.5;  // relative to the largest normal impulse
     Report report;
     solve_any(p, v, report);
-    const bool is_wrong = !p.position && p.robots.size() > 1 && p.rows.angulars.empty() &&
+    const bool is_wrong = !p.position && p.robots.size() > 1 && sweeps_know_friction(p.rows) &&
                           friction::bound_error(p.rows).relative() > kWrongFriction;
     if (is_wrong || !(report.residual <= kUseless)) {
         settle_for_sweeps(p, v);
