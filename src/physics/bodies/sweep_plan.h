@@ -1,5 +1,5 @@
-// When Gauss-Seidel sweeps over the contacts of free bodies (lanes/lane_pair_sweeps.h) end, and when what
-// they found is the solution; decision 0037.
+// When Gauss-Seidel sweeps over contacts end, of free bodies (lanes/lane_pair_sweeps.h) and of robots with
+// joints (solver/row_sweeps.h), and when what they found is the solution; decision 0037.
 //
 // Sums over all contact points, with m their effective masses: `impulses` is the sum of impulse^2 / m,
 // `change` that of (impulse change by a sweep)^2 / m, `motion` that of m speed^2 at the velocities that the
