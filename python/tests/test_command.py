@@ -27,7 +27,8 @@ def outcome(command, *arguments, program=None):
 
 @pytest.mark.parametrize("arguments", [["--version"], ["--help-all"], ["run", "--no-such-option"], ["run", "no_such.sdf"],
                                        ["check", WORLD, "--json"], ["control", "--simulation", "nobody", "pause"]])
-def test_says_what_the_built_program_says(command, arguments):
+def test_says_what_the_built_program_says(command, arguments, tmp_path, monkeypatch):
+    monkeypatch.setenv("XDG_RUNTIME_DIR", str(tmp_path))  # no list of the runs of other tests
     assert outcome(command, *arguments) == outcome(["roboss"], *arguments, program=BUILT)
 
 
