@@ -7,6 +7,7 @@
 #include <support/drives.h>
 #include <support/joint_net.h>
 #include <support/mechanisms.h>
+#include <support/pressed_balls.h>
 #include <support/scenes.h>
 #include <algorithm>
 
@@ -179,17 +180,8 @@ TEST(Allocation, ATeamThatSharesANetAllocatesNothing) {
 }
 
 TEST(Allocation, ATeamThatSharesOnePileAllocatesNothing) {
-    constexpr int kSide = 28;  // balls on the ground, pressed together
-    World world = empty_world(2e-3);
-    place(world, ground(surface(0.7)), "ground");
-    world.prototypes.push_back(solid_sphere(1.0, 0.1, surface(0.5)));
-    for (int i = 0; i < kSide * kSide; ++i)
-        world.instances.push_back(
-            {"ball_" + std::to_string(i), 1, {{0.199 * (i % kSide), 0.199 * (i / kSide), 0.0995}, {}}, {}});
-    Simulation sim(world);
-    for (RobotState& state : sim.states)
-        for (std::size_t axis = 0; axis < 2; ++axis) state.v[3 + axis] = -0.3 * (state.q[axis] - 2);
-    sim.scratch.measure_stages([] { return std::uint64_t{0}; });
+    Simulation sim(balls_side_by_side());
+    press_together(sim);
     const std::vector<RobotState> start = sim.states;
     std::uint64_t largest = 0;
     for (int i = 0; i < 8; ++i)

@@ -5,6 +5,7 @@
 #include <bit>
 #include <limits>
 
+#include <support/pressed_balls.h>
 #include <support/scenes.h>
 
 #include "core/thread_pool.h"
@@ -297,21 +298,9 @@ TEST(Invariance, ATeamThatStepsSmallGroupsSideBySideGivesTheSameBits) {
 }
 
 TEST(Invariance, ATeamThatSolvesOnePartTogetherGivesTheSameBits) {
-    // Balls side by side on the ground, which are pressed together.
-    constexpr int kSide = 28;
-    World world = empty_world(2e-3);
-    place(world, ground(surface(0.7)), "ground");
-    world.prototypes.push_back(solid_sphere(1.0, 0.1, surface(0.5)));
-    for (int i = 0; i < kSide * kSide; ++i)
-        world.instances.push_back(
-            {"ball_" + std::to_string(i), 1, {{0.199 * (i % kSide), 0.199 * (i / kSide), 0.0995}, {}}, {}});
-    Simulation alone(world), shared(world);
+    Simulation alone(balls_side_by_side()), shared(balls_side_by_side());
     ThreadPool two(2), three(3);
-    for (Simulation* sim : {&alone, &shared}) {
-        for (RobotState& state : sim->states)
-            for (std::size_t axis = 0; axis < 2; ++axis) state.v[3 + axis] = -0.3 * (state.q[axis] - 2);
-        sim->scratch.measure_stages([] { return std::uint64_t{0}; });
-    }
+    for (Simulation* sim : {&alone, &shared}) press_together(*sim);
     std::uint64_t largest = 0;
     for (int i = 0; i < 8; ++i) {
         shared.scratch.use_team(i % 4 == 3 ? Team() : Team(i % 4 == 1 ? three : two));

@@ -83,7 +83,7 @@ void Simulation::add_simulator() {
     SimulatorOptions role;
     role.lanes = lanes_;
     role.name = "inside";
-    // A recovery goes on: without the states that it brings back the run cannot be saved.
+    // Not during a recovery: without the states that it restores the run cannot be saved.
     role.abandons = [this] { return is_interrupted() && controller_.phase() == Phase::kStepping; };
     simulators_.push_back(
         std::make_unique<Simulator>(model_, Address{Role::kSimulator, ++instance_}, role, pool_));

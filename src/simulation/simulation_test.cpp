@@ -99,7 +99,7 @@ TEST_F(SimulationTest, AnInterruptEndsARunWithinAWindowAndLeavesTheStatesOfTheLa
     EXPECT_EQ(saved.tick, tick);
     interrupts = false;
     run_until(*simulation, kEnd);
-    EXPECT_EQ(simulation->hash(), expected_) << "it goes on as if nothing had happened";
+    EXPECT_EQ(simulation->hash(), expected_) << "the run continues to the undisturbed hash";
     const auto continued = make(model_, 2, &saved);
     run_until(*continued, kEnd);
     EXPECT_EQ(continued->hash(), expected_);

@@ -202,7 +202,7 @@ bool BodySolver::settle_velocities(const Accuracy& accuracy) {
     keep_start();
     const bool is_pile = !alone && bodies >= kPile;
     const SweepReport report = sweep(is_pile ? pile_plan(accuracy, most, fill_) : SweepPlan{.most = most});
-    if (!swept_ || !(alone || report.settled || (is_pile && fill_ == Fill::kMuch))) return false;
+    if (!swept_ || !(alone || report.settled || fill_ == Fill::kMuch)) return false;
     take_swept();
     iterations_ += report.iterations();
     return true;

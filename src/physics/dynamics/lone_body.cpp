@@ -21,18 +21,13 @@ bool is_compact(const Body& body) {
     return has_principal_axes(body) && least > kLeast * greatest;
 }
 
-/// R^T v
-Vec3 turned_back(const Mat3& R, const Vec3& v) {
-    return R.r0 * v.x + R.r1 * v.y + R.r2 * v.z;
-}
-
 /// Torque-free rotation: dq/dt = w q / 2 with w = R I^-1 R^T L and the angular momentum L constant.
 struct Rotation {
     Vec3 inverse;   // of the principal moments
     Vec3 momentum;  // kg m^2/s, world axes
 
     Vec3 velocity(const Mat3& R) const {
-        const Vec3 L = turned_back(R, momentum);
+        const Vec3 L = transpose_times(R, momentum);
         return R * Vec3{inverse.x * L.x, inverse.y * L.y, inverse.z * L.z};
     }
 
@@ -79,9 +74,9 @@ bool advance_lone_body(const Model& model, double fastest, RobotWork& work) {
     for (int i = 0; i < parts; ++i) q = rotation.after(q, dt / parts);
     const Mat3 R = to_matrix(q);
     const Vec3 angular = rotation.velocity(R), arm = R * body.p_BC;
-    const double before_J = dot(start.velocity.angular, rotation.momentum),
-                 after_J = dot(angular, rotation.momentum);  // twice the energy of the rotation
-    if (!(after_J <= (1 + kGrowth) * before_J)) return false;
+    const double energy_before = 0.5 * dot(start.velocity.angular, rotation.momentum),
+                 energy = 0.5 * dot(angular, rotation.momentum);
+    if (!(energy <= (1 + kGrowth) * energy_before)) return false;
     const Vec3 acceleration = model.gravity * (body.gravity_mass / body.mass);
     const Vec3 before = start.velocity.linear + cross(start.velocity.angular, start.centre);
     const Vec3 linear = before + acceleration * dt - cross(angular, arm);

@@ -121,18 +121,23 @@ TEST(FrontFactor, SolvesUnsymmetricGraphsAsTheDenseMatrixSays) {
     expect_right_on_random_graphs(false);
 }
 
+/// The example with random numbers, by these fronts.
+std::vector<double> solve_with(FrontFactor& fronts, Example e, std::mt19937& random) {
+    std::swap(e.fronts, fronts);
+    e.fill(random, true);
+    std::vector<double> x(e.n, 1.0);
+    EXPECT_TRUE(e.fronts.solve(x));
+    std::swap(e.fronts, fronts);
+    return x;
+}
+
 TEST(FrontFactor, AReusedFactorGivesTheBitsOfAFreshOne) {
     const auto solve = [](FrontFactor& fronts, unsigned seed) {
         std::mt19937 random(seed);
         Example e;
         for (int g = 0; g < 5; ++g) e.first.push_back(e.first.back() + 6);
         for (int g = 0; g < 4; ++g) e.add_clique(random, g, g + 1);
-        std::swap(e.fronts, fronts);
-        e.fill(random, true);
-        std::vector<double> x(e.n, 1.0);
-        EXPECT_TRUE(e.fronts.solve(x));
-        std::swap(e.fronts, fronts);
-        return x;
+        return solve_with(fronts, e, random);
     };
     FrontFactor reused;
     solve(reused, 1), solve(reused, 2);
@@ -148,13 +153,7 @@ TEST(FrontFactor, AKnownPatternWithOtherNumbersGivesTheBitsOfAFreshOne) {
     for (int g = 0; g < 2; ++g) e.add_clique(pattern, g, g + 1);
     const auto solve = [&](FrontFactor& fronts, unsigned numbers) {
         std::mt19937 random(numbers);
-        Example other = e;
-        std::swap(other.fronts, fronts);
-        other.fill(random, true);
-        std::vector<double> x(other.n, 1.0);
-        EXPECT_TRUE(other.fronts.solve(x));
-        std::swap(other.fronts, fronts);
-        return x;
+        return solve_with(fronts, e, random);
     };
     FrontFactor known, fresh;
     solve(known, 1);

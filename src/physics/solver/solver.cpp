@@ -24,12 +24,6 @@ bool is_pile(const IslandSolver::Problem& p) {
     return p.robots.size() >= (is_driven ? kDrivenPile : kPile) && !p.rows.contacts.empty();
 }
 
-const newton::Plan& plan_of(const IslandSolver::Problem& p) {
-    static constexpr newton::Plan kAlone;
-    if (is_pile(p)) return kPilePlan;
-    return p.robots.size() > 1 ? kCrowdPlan : kAlone;
-}
-
 }  // namespace
 
 /// Newton's method, and where many contacts stand between sticking and sliding the interior point method:
@@ -39,7 +33,7 @@ const newton::Plan& plan_of(const IslandSolver::Problem& p) {
 void IslandSolver::solve_any(const Problem& p, std::vector<double>& v, Report& report) {
     Lockstep<double> alone;
     const bool piled = is_pile(p);
-    plan_ = plan_of(p);
+    plan_ = piled ? kPilePlan : p.robots.size() > 1 ? kCrowdPlan : newton::Plan{};
     start(p, v);
     friction::keep_bounds(p.rows, start_bounds_);
     if (piled && !p.position && p.rows.couplings.empty() && sweeps_suffice(p.accuracy))

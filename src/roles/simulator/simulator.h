@@ -98,7 +98,7 @@ class Simulator {
     std::optional<Assignment> awaiting_orders_;  // waits for the orders that were sent ahead of it
     std::optional<OrdersAhead> ahead_;
     bool reported_late_ = false, cut_ = false;  // of the assignment
-    std::atomic<bool> unwanted_{false};         // nobody waits for the assignment in progress any more
+    std::atomic<bool> unwanted_{false};         // the result of the assignment is not used
     StateRequest to_keep_;           // of the assignment: copied later, but before the next assignment begins
     StatePull pull_;                 // of its hand-offs
     std::vector<StateReply> early_;  // that came before their assignment
