@@ -3,8 +3,8 @@
 // the contact is done. Otherwise the closest direction is searched, and the contact built from the features
 // that meet along it.
 #include <algorithm>
-#include <limits>
 
+#include "geometry/best_of_all.h"
 #include "geometry/closest_direction.h"
 #include "geometry/cylinder_rim.h"
 #include "geometry/support_line.h"
@@ -86,27 +86,23 @@ double rim_slack(const Posed& a, const Posed& b, const Vec3& n) {
     return slack;
 }
 
-/// Whether no direction separates better than the face's. Apart: the deepest point over the face is a pair of
-/// points at that distance. Penetrating by d: the sum holds the facet's disc of radius `clearance` and its
-/// mirror image, hence a ball of radius d round the centre if the disc is wide enough for the slant of the
-/// line that joins the two.
+/// Whether no direction separates better than the face's (best_of_all.h).
 bool is_proven(const ConvexSum& sum, const Separation& best, const FaceContact& contact, double balls,
                double slack) {
     const double tolerance = 1e-7 * sum.scale() + slack;
     if (contact.points.deepest() > best.s - balls + tolerance) return false;
-    if (best.s >= 0.0) return true;
-    const double depth = -best.s, height = sum.reach(best.n);
-    const Vec3 aside = sum.centre() - best.n * dot(best.n, sum.centre());
-    return depth <= height &&
-           depth * (1.0 + 2.0 * norm(aside) / height) <= contact.clearance(10.0 * tolerance);
+    return best.s >= 0.0 || holds_ball(sum, best, contact.clearance(10.0 * tolerance));
 }
 
-/// Whether the lines or points furthest along n lie opposite each other: apart, that makes n the best of all.
-bool is_opposite(const Posed& a, const Posed& b, const ConvexSum& sum, const Separation& best) {
-    const LinePair lines{support_line(a, -best.n, 1e-7), support_line(b, best.n, 1e-7), best.n,
-                         best.s - ball(a) - ball(b), 1e-8 * sum.scale()};
-    Manifold ignored;
-    return add_lines(lines, 0.0, ignored) < std::numeric_limits<double>::infinity();
+/// The best of all directions, from a good one; any of those that separate by more than `enough`.
+Separation best_of_all(const Posed& a, const Posed& b, const ConvexSum& sum, const Separation& start,
+                       double enough) {
+    const Separation guess = sum.at_kink(start);
+    if (guess.s > enough || (guess.s > start.s - 1e-8 * sum.scale() && is_best_of_all(a, b, sum, guess)))
+        return guess;
+    const Separation best = sum.polished(start);
+    if (best.s > enough || is_best_of_all(a, b, sum, best)) return best;
+    return closest_direction(sum, best, enough);
 }
 
 void write_features(const Posed& a, const Posed& b, const ConvexSum& sum, const Separation& best,
@@ -148,9 +144,7 @@ void convex_convex(const Posed& a, const Posed& b, double margin, Manifold& out)
         if (is_proven(sum, best, contact, balls, rim_slack(a, b, best.n)))
             return contact.write(choice.of_first, margin, out);
     }
-    best = sum.polished(best);
-    if (best.s > enough) return;
-    if (!(best.s > 0.0 && is_opposite(a, b, sum, best))) best = closest_direction(sum, best, enough);
+    best = best_of_all(a, b, sum, best, enough);
     if (best.s > enough) return;
     write_features(a, b, sum, best, margin, out);
 }

@@ -100,23 +100,19 @@ Separation ConvexSum::best_natural(double enough) const {
     for (std::size_t i = 0; i < first_segments_; ++i)
         for (std::size_t j = first_segments_; j < segment_count_; ++j)
             if (is_enough(cross(direction_[i], direction_[j]))) return best;
-    const auto is_enough_near = [&](const Vec3& towards) {
-        const double distance = norm(towards);
-        if (distance < 1e-12 * inradius_) return false;
-        const Vec3 d = towards / distance;
-        if (is_enough(d)) return true;
-        for (std::size_t i = 0; i < segment_count_; ++i)
-            if (is_enough(radial_part(d, direction_[i]))) return true;
-        return false;
-    };
-    if (is_enough_near(centre_)) return best;
-    if (first_segments_ == 3) {  // from the point of the box that is closest to the other centre
-        Vec3 closest;
-        for (std::size_t i = 0; i < 3; ++i) {
-            closest += direction_[i] * std::clamp(dot(centre_, direction_[i]), -half_[i], half_[i]);
-        }
-        is_enough_near(centre_ - closest);
+    // From the point of a box that is closest to the other centre, or from centre to centre.
+    Vec3 towards = centre_;
+    if (first_segments_ == 3) {
+        for (std::size_t i = 0; i < 3; ++i)
+            towards -= direction_[i] * std::clamp(dot(centre_, direction_[i]), -half_[i], half_[i]);
+        if (norm(towards) < 1e-12 * inradius_) towards = centre_;
     }
+    const double distance = norm(towards);
+    if (distance < 1e-12 * inradius_) return best;
+    const Vec3 d = towards / distance;
+    if (is_enough(d)) return best;
+    for (std::size_t i = 0; i < segment_count_; ++i)
+        if (is_enough(radial_part(d, direction_[i]))) return best;
     return best;
 }
 
@@ -197,15 +193,38 @@ Separation ConvexSum::better(const Separation& best, const Separation& found) co
     return found.s >= best.s - rounding() ? found : best;
 }
 
+std::size_t ConvexSum::edges_across(const Vec3& n, std::array<Vec3, 6>& edges) const {
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < segment_count_; ++i)
+        if (half_[i] > 0.0 && std::fabs(dot(n, direction_[i])) < kNear) edges[count++] = direction_[i];
+    return count;
+}
+
+void ConvexSum::consider_flat(const Vec3& line, const Vec3& n, Separation& best) const {
+    const double length = norm(line);
+    if (length < 1e-3) return;
+    const Vec3 flat = line * (dot(line, n) < 0.0 ? -1.0 / length : 1.0 / length);
+    if (dot(flat, n) > 0.9) best = better(best, separation(flat));
+}
+
+Separation ConvexSum::at_kink(const Separation& start) const {
+    std::array<Vec3, 6> edges;
+    const std::size_t count = edges_across(start.n, edges);
+    Separation best;
+    if (count == 1) best = climb(normalized(radial_part(start.n, edges[0])), &edges[0]);
+    for (std::size_t i = 0; i < count; ++i)
+        for (std::size_t j = i + 1; j < count; ++j) consider_flat(cross(edges[i], edges[j]), start.n, best);
+    for (std::size_t i = 0; i < disc_count_; ++i)
+        if (norm(radial_part(start.n, discs_[i].axis)) < kNear) consider_flat(discs_[i].axis, start.n, best);
+    return best;
+}
+
 Separation ConvexSum::polished(const Separation& start) const {
     // Flattest last, each accepted when it is at least as good to within rounding.
     const Vec3& n0 = start.n;
     Separation best = better(start, climb(n0, nullptr));
     std::array<Vec3, 6> edges;
-    std::size_t count = 0;
-    for (std::size_t i = 0; i < segment_count_; ++i) {
-        if (half_[i] > 0.0 && std::fabs(dot(n0, direction_[i])) < kNear) edges[count++] = direction_[i];
-    }
+    const std::size_t count = edges_across(n0, edges);
     // The gap has a kink where n is perpendicular to a segment: where it rises beside the kink, each side is
     // climbed.
     for (std::size_t i = 0; i < count; ++i) {
@@ -216,15 +235,8 @@ Separation ConvexSum::polished(const Separation& start) const {
         best = better(best, climb(n, &edges[i]));
         if (count > 1) climb_beside(n, cross(edges[i], n), &edges[i], best);
     }
-    const auto consider_flat = [&](const Vec3& direction) {
-        const double length = norm(direction);
-        if (length < 1e-3) return;
-        const Vec3 n = direction * (dot(direction, n0) < 0.0 ? -1.0 / length : 1.0 / length);
-        if (dot(n, n0) > 0.9) best = better(best, separation(n));
-    };
-    for (std::size_t i = 0; i < count; ++i) {
-        for (std::size_t j = i + 1; j < count; ++j) consider_flat(cross(edges[i], edges[j]));
-    }
+    for (std::size_t i = 0; i < count; ++i)
+        for (std::size_t j = i + 1; j < count; ++j) consider_flat(cross(edges[i], edges[j]), n0, best);
     for (std::size_t i = 0; i < disc_count_; ++i) {
         const Vec3& axis = discs_[i].axis;
         if (norm(radial_part(n0, axis)) >= kNear) continue;
@@ -233,7 +245,7 @@ Separation ConvexSum::polished(const Separation& start) const {
         const Vec3 aside = radial_part(centre_ - support(n), axis);
         const double length = norm(aside);
         if (length > discs_[i].radius) climb_beside(n, aside / length, nullptr, best);
-        consider_flat(axis);
+        consider_flat(axis, n0, best);
     }
     return best;
 }

@@ -44,6 +44,10 @@ class ConvexSum {
     /// first that separates by more than `enough`.
     Separation best_natural(double enough) const;
 
+    /// A guess at a nearby maximum: where two segments or more are nearly perpendicular to start.n, the best
+    /// of their common normals; where one is, the best direction across it. May be worse than `start`.
+    Separation at_kink(const Separation& start) const;
+
     /// Improves a nearby maximum to rounding: all combinations of features close to start.n, each by Newton's
     /// method on the sphere. Between equals the flatter one wins. The result is below start by rounding at
     /// most.
@@ -59,6 +63,10 @@ class ConvexSum {
     /// Newton's method, perpendicular to the edge if one is given.
     Separation climb(const Vec3& start, const Vec3* edge) const;
     bool rises(const Vec3& n, const Vec3& d) const;  // s grows from n towards d or -d
+    /// Segments nearly perpendicular to n; returns their number.
+    std::size_t edges_across(const Vec3& n, std::array<Vec3, 6>& edges) const;
+    /// The separation along a line's direction that is close to n, if it is better.
+    void consider_flat(const Vec3& line, const Vec3& n, Separation& best) const;
     void climb_beside(const Vec3& n, const Vec3& d, const Vec3* edge, Separation& best) const;
     Separation better(const Separation& best, const Separation& found) const;
 

@@ -98,26 +98,32 @@ bool common_part(const SupportLine& a, const SupportLine& b, double width,
     return true;
 }
 
+TouchingLines find_touching(const LinePair& pair) {
+    const SupportLine& a = pair.a;
+    SupportLine b = pair.b;
+    b.middle += pair.n * pair.gap;
+    const auto touches = [&](const LineParameters& p) {
+        const Vec3 d = (a.middle + a.half * p.s) - (b.middle + b.half * p.t);
+        return norm(d - pair.n * dot(pair.n, d)) <= pair.width;
+    };
+    TouchingLines found;
+    if (common_part(a, b, pair.width, found.at) && touches(found.at[0]) && touches(found.at[1])) {
+        found.count = 2;
+        return found;
+    }
+    found.at[0] = closest_parameters(a, b);
+    found.count = touches(found.at[0]) ? 1 : 0;
+    return found;
+}
+
 double add_lines(const LinePair& pair, double margin, Manifold& out) {
     const SupportLine &a = pair.a, &b = pair.b;
-    SupportLine touching = b;
-    touching.middle += pair.n * pair.gap;
-    const auto aside = [&](const LineParameters& p) {
-        const Vec3 d = (a.middle + a.half * p.s) - (touching.middle + touching.half * p.t);
-        return norm(d - pair.n * dot(pair.n, d));
-    };
-    std::array<LineParameters, 2> points;
-    std::size_t count = 2;
-    if (!common_part(a, touching, pair.width, points) || aside(points[0]) > pair.width ||
-        aside(points[1]) > pair.width) {
-        points[0] = closest_parameters(a, touching);
-        count = 1;
-    }
+    const TouchingLines found = find_touching(pair);
     double smallest = std::numeric_limits<double>::infinity();
-    if (count == 1 && aside(points[0]) > pair.width) return smallest;
+    if (found.count == 0) return smallest;
     out.n_W = pair.n;
-    for (std::size_t i = 0; i < count; ++i) {
-        const LineParameters& p = points[i];
+    for (std::size_t i = 0; i < found.count; ++i) {
+        const LineParameters& p = found.at[i];
         const Vec3 on_a = a.middle + a.half * p.s, on_b = b.middle + b.half * p.t;
         const double gap = dot(pair.n, on_a - on_b);
         smallest = std::min(smallest, gap);

@@ -35,6 +35,14 @@ struct LinePair {
     double width = 0;  // sideways distance below which they count as touching
 };
 
+/// Where they touch: at one place, at the two ends of the stretch along which they run side by side, or,
+/// where they pass each other sideways by more than the width, nowhere.
+struct TouchingLines {
+    std::array<LineParameters, 2> at;
+    std::size_t count = 0;
+};
+TouchingLines find_touching(const LinePair& pair);
+
 /// Adds the contact of two lines (two points when they run side by side), gaps measured along n. Returns the
 /// smallest gap; infinity, and nothing added, when the lines pass each other sideways by more than the width.
 double add_lines(const LinePair& pair, double margin, Manifold& out);
