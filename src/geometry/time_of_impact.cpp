@@ -61,13 +61,15 @@ struct Placed {
     ~Placed() = default;
 };
 
-/// Looks for proof that two bodies stay further apart than what counts as touching. Spinning bodies come
-/// nearer by far less than closing_speed() must assume, so most pairs are proven at once.
+/// Looks for proof that two bodies stay apart, or do not sink into each other deeper than is allowed.
+/// Spinning bodies come nearer by far less than closing_speed() must assume, so most pairs are proven at
+/// once.
 template <class SumAt>
 class Apartness {
   public:
     /// `sum_at(t, act)` calls act(sum) with the bodies' sum at time t, and returns what that does.
-    /// `acceleration`: of a point of one body relative to the other, at most.
+    /// `balls`: their radii, less the depth that is allowed. `acceleration`: of a point of one body relative
+    /// to the other, at most.
     Apartness(const SumAt& sum_at, double balls, double acceleration)
         : sum_at_(sum_at), balls_(balls), acceleration_(acceleration) {}
 
@@ -103,14 +105,15 @@ class Apartness {
     double balls_, acceleration_;
 };
 
-bool stay_apart(const Course& a, const Course& b, double dt, const Vec3& n, int parts) {
+bool stay_apart(const Course& a, const Course& b, double dt, double deep, const Vec3& n, int parts) {
     if (a.shape->kind == ShapeKind::kPlane || b.shape->kind == ShapeKind::kPlane) return false;
     const auto sum_at = [&](double t, const auto& act) {
         const Placed there_a(a, t), there_b(b, t);
         return act(GeneralSum(there_a.body, there_b.body));
     };
     const double acceleration = most_acceleration(a, dt) + most_acceleration(b, dt);
-    return Apartness(sum_at, ball_of(*a.shape) + ball_of(*b.shape), acceleration).is_proven(dt, n, parts);
+    return Apartness(sum_at, ball_of(*a.shape) + ball_of(*b.shape) - deep, acceleration)
+        .is_proven(dt, n, parts);
 }
 
 /// `find(t)` gives the manifold at time t; `m` is that of the beginning, with points. stays_apart(n) looks
@@ -225,14 +228,15 @@ double sinking(const Course& a, const Course& b, const Manifold& m, double t, do
     return deepest;
 }
 
-bool surely_pass(const Course& a, const Course& b, double dt, const Vec3& n) {
-    return stay_apart(a, b, dt, n, 1);
+bool surely_pass(const Course& a, const Course& b, double dt, const Vec3& n, double deep) {
+    return stay_apart(a, b, dt, deep, n, 1);
 }
 
 std::optional<double> time_of_impact(const Course& a, const Course& b, double dt, double deep, double margin,
                                      Manifold& m) {
     const auto find = [&](double t) { return collide(*a.shape, a.at(t), *b.shape, b.at(t), margin); };
-    return advance(a, b, dt, deep, m, find, [&](const Vec3& n) { return stay_apart(a, b, dt, n, kParts); });
+    return advance(a, b, dt, deep, m, find,
+                   [&](const Vec3& n) { return stay_apart(a, b, dt, deep, n, kParts); });
 }
 
 std::optional<double> time_of_impact(const Course& course, const TriangleSurface& surface,

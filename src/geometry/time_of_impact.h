@@ -31,10 +31,10 @@ double sinking(const Course& a, const Course& b, const Manifold& manifold, doubl
 std::optional<double> time_of_impact(const Course& a, const Course& b, double dt, double deep, double margin,
                                      Manifold& manifold);
 
-/// True if two bounded convex shapes are easily proven not to touch before `dt`: then time_of_impact finds
-/// nothing, and the manifold that it asks for is not needed. `n`: a unit vector from b to a, where the search
-/// for a separating one begins.
-bool surely_pass(const Course& a, const Course& b, double dt, const Vec3& n);
+/// True if two bounded convex shapes are easily proven not to sink into each other by more than `deep` before
+/// `dt`: then time_of_impact has nothing to find, and the manifold that it asks for is not needed. `n`: a
+/// unit vector from b to a, where the search for a separating one begins.
+bool surely_pass(const Course& a, const Course& b, double dt, const Vec3& n, double deep);
 
 /// A plane of a surface, in W.
 struct TouchedPlane {

@@ -37,7 +37,7 @@ TEST(TimeOfImpact, WhatSurelyPassesNeverTouches) {
     std::mt19937 random(7);
     const auto number = [&] { return static_cast<double>(random()) / 2147483648.0 - 1.0; };
     const auto vector = [&] { return Vec3{number(), number(), number()}; };
-    int passed = 0, close = 0;
+    int passed = 0, close = 0, grazing = 0;
     for (int i = 0; i < 600; ++i) {
         const Shape &first = *shapes[random() % 4], &second = *shapes[random() % 4];
         const Vec3 away = normalized(vector()), spin_a = vector() * 20.0, spin_b = vector() * 20.0;
@@ -47,8 +47,12 @@ TEST(TimeOfImpact, WhatSurelyPassesNeverTouches) {
         Manifold m = collide(first, a.X, second, b.X, far);
         a = flying(first, a.X.p - m.n_W * (least_gap(m) - 1e-3 * (1 + number())), a.linear, spin_a);
         a.origin = a.X.p;
-        if (!surely_pass(a, b, kTick, m.n_W)) continue;
-        const double gap = least_gap_on_the_way(a, b);
+        const double deep = 5e-4, gap = least_gap_on_the_way(a, b);
+        if (surely_pass(a, b, kTick, m.n_W, deep)) {
+            EXPECT_GT(gap, kImpactGap - deep) << "pair " << i;
+            grazing += gap < 0;
+        }
+        if (!surely_pass(a, b, kTick, m.n_W, 0)) continue;
         ++passed, close += gap < 1e-3;
         EXPECT_GT(gap, kImpactGap) << "pair " << i;
         Manifold there = collide(first, a.X, second, b.X, 0.1);
@@ -56,6 +60,7 @@ TEST(TimeOfImpact, WhatSurelyPassesNeverTouches) {
     }
     EXPECT_GT(passed, 100);
     EXPECT_GT(close, 30);
+    EXPECT_GT(grazing, 5);
 }
 
 }  // namespace

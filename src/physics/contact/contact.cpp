@@ -107,6 +107,16 @@ std::size_t first_contact(std::size_t robot, std::span<const Contact> contacts) 
     return static_cast<std::size_t>(at - contacts.begin());
 }
 
+/// Sorts them; of those of the same shapes one is kept, always the same.
+void keep_one_of_each(std::vector<NearMiss>& misses) {
+    std::ranges::sort(misses, [](const NearMiss& a, const NearMiss& b) {
+        if (a != b) return a < b;
+        const Vec3 &n = a.normal, &m = b.normal;
+        return std::tuple(n.x, n.y, n.z) < std::tuple(m.x, m.y, m.z);
+    });
+    misses.erase(std::unique(misses.begin(), misses.end()), misses.end());
+}
+
 }  // namespace
 
 ContactFinder::ContactFinder()
@@ -194,8 +204,7 @@ void ContactFinder::find(const Model& model, std::span<RobotWork> robots, const 
     }
     bonds_ = nullptr;
     defer_later(model, robots, contacts);
-    std::ranges::sort(near_misses_);
-    near_misses_.erase(std::unique(near_misses_.begin(), near_misses_.end()), near_misses_.end());
+    keep_one_of_each(near_misses_);
     for (const Contact& c : contacts) {
         RobotWork& a = robots[static_cast<std::size_t>(c.robot_a)];
         ++a.contacts;
@@ -265,7 +274,7 @@ void ContactFinder::with_surface(const Model& model, std::span<const RobotWork> 
         return add_points(b.found.points, pair, keep, contacts);
     const Course moving = course(model, robots, pair.robot_a, pair.shape_a), still{};
     const SweptPair judged = sweep(moving, surface, scenery.X_WS, model.dt_s, margin, b);
-    if (judged.meeting == Meeting::kNone) miss(pair);
+    if (judged.meeting == Meeting::kNone) miss(pair, {});
     const std::size_t first = contacts.size();
     add_points(b.found.points, pair, keep, contacts);
     const std::size_t middle = contacts.size();
@@ -279,15 +288,16 @@ void ContactFinder::with_surface(const Model& model, std::span<const RobotWork> 
     }
 }
 
-void ContactFinder::miss(const Pair& pair) {
-    near_misses_.push_back({pair.robot_a, pair.robot_b, static_cast<std::uint32_t>(pair.shape_a),
-                            static_cast<std::uint32_t>(pair.shape_b)});
+void ContactFinder::miss(const Pair& pair, const Vec3& normal) {
+    near_misses_.push_back({{pair.robot_a, pair.robot_b, static_cast<std::uint32_t>(pair.shape_a),
+                             static_cast<std::uint32_t>(pair.shape_b)},
+                            normal});
 }
 
 void ContactFinder::add_judged(const Pair& pair, const Course& a, const Course& b, double dt, double margin,
                                std::uint32_t keep, Manifold& manifold, std::vector<Contact>& contacts) {
     const SweptPair judged = sweep(a, b, dt, margin, manifold);
-    if (judged.meeting == Meeting::kNone) return miss(pair);
+    if (judged.meeting == Meeting::kNone) return miss(pair, manifold.n_W);
     const std::size_t first = contacts.size();
     add_points(manifold, pair, keep, contacts);
     if (judged.meeting == Meeting::kInTick)
@@ -315,7 +325,7 @@ void ContactFinder::defer_later(const Model& model, std::span<const RobotWork> r
     }
     const auto is_later = [&](const Contact& c) { return c.time > first_hit(c) + kTogether * dt; };
     for (const Contact& c : contacts)
-        if (is_later(c)) near_misses_.push_back({c.robot_a, c.robot_b, c.shape_a, c.shape_b});
+        if (is_later(c)) near_misses_.push_back({{c.robot_a, c.robot_b, c.shape_a, c.shape_b}, c.normal});
     std::erase_if(contacts, is_later);
 }
 

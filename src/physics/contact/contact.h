@@ -35,12 +35,16 @@ struct ContactT {
 };
 using Contact = ContactT<double>;
 
-/// Two shapes that may come together within the tick, but not by the motion known before solving: see
-/// swept_contact.h.
-struct NearMiss {
+struct ShapePair {
     int robot_a = 0, robot_b = -1;
     std::uint32_t shape_a = 0, shape_b = 0;
-    friend auto operator<=>(const NearMiss&, const NearMiss&) = default;
+    friend auto operator<=>(const ShapePair&, const ShapePair&) = default;
+};
+
+/// Two shapes that may come together within the tick, but not by the motion known before solving: see
+/// swept_contact.h. Compared as pairs of shapes.
+struct NearMiss : ShapePair {
+    Vec3 normal;  // from B to A at the beginning of the tick; zero if it is not known
 };
 
 /// Those of which the robot is the first, of sorted ones.
@@ -118,7 +122,7 @@ class ContactFinder {
                     std::uint32_t keep, Manifold& manifold, std::vector<Contact>& contacts);
     void with_surface(const Model& model, std::span<const RobotWork> robots, const Pair& pair,
                       std::uint32_t keep, std::vector<Contact>& contacts);
-    void miss(const Pair& pair);
+    void miss(const Pair& pair, const Vec3& normal);
     void defer_later(const Model& model, std::span<const RobotWork> robots, std::vector<Contact>& contacts);
     void with_statics(const Model& model, std::span<RobotWork> robots, std::size_t a,
                       std::vector<Contact>& contacts);

@@ -11,7 +11,7 @@
 namespace roboss {
 namespace {
 
-NearMiss pair_of(const Contact& c) {
+ShapePair pair_of(const Contact& c) {
     return {c.robot_a, c.robot_b, c.shape_a, c.shape_b};
 }
 
@@ -110,7 +110,7 @@ Course SecondLook::course(const SolvedIsland& island, int robot, std::uint32_t s
     return course_of(moved(island, robot), shape);
 }
 
-void SecondLook::add(const SolvedIsland& island, const NearMiss& pair, const Course& a, const Course& b,
+void SecondLook::add(const SolvedIsland& island, const ShapePair& pair, const Course& a, const Course& b,
                      double t, const Vec3& normal, const Vec3& p_W, double gap) {
     const auto body = [&](int robot, std::uint32_t shape) {
         return robot < 0 ? -1 : island.robots[static_cast<std::size_t>(robot)].type->shapes[shape].body;
@@ -125,7 +125,7 @@ void SecondLook::add(const SolvedIsland& island, const NearMiss& pair, const Cou
 }
 
 /// The planes of a surface that hold a shape already.
-void SecondLook::hold_planes(const SolvedIsland& island, const NearMiss& pair) {
+void SecondLook::hold_planes(const SolvedIsland& island, const ShapePair& pair) {
     buffers_.held.clear();
     const auto i = static_cast<std::size_t>(pair.robot_a);
     const Course before = known_course(island.model, island.robots[i], i, pair.shape_a, island.free_courses);
@@ -149,14 +149,15 @@ void SecondLook::find_missed(const SolvedIsland& island, const NearMiss& pair) {
         for (const SurfaceContact& c : buffers_.met) add(island, pair, a, b, *t, c.n_W, c.p_W, c.gap);
         return;
     }
-    add_first_hit(island, pair, a, b);
+    add_first_hit(island, pair, pair.normal, a, b);
 }
 
-/// Where two convex shapes meet first. False if they do not.
-bool SecondLook::add_first_hit(const SolvedIsland& island, const NearMiss& pair, const Course& a,
-                               const Course& b) {
+/// Where two convex shapes meet first. False if they do not. `normal` may separate them (zero: unknown).
+bool SecondLook::add_first_hit(const SolvedIsland& island, const ShapePair& pair, const Vec3& normal,
+                               const Course& a, const Course& b) {
     const double dt = island.model.dt_s, margin = (speed_of(a) + speed_of(b)) * dt + 2 * kBaseMargin;
-    if (const Vec3 d = a.X.p - b.X.p; d != Vec3{} && surely_pass(a, b, dt, normalized(d))) return false;
+    const Vec3 d = normal != Vec3{} ? normal : a.X.p - b.X.p;
+    if (d != Vec3{} && surely_pass(a, b, dt, normalized(d), kDeep)) return false;
     Manifold m = collide(*a.shape, a.X, *b.shape, b.X, margin);
     if (m.count == 0) return false;
     const auto t = time_of_impact(a, b, dt, kDeep, margin, m);
@@ -183,10 +184,10 @@ void SecondLook::find_struck(const SolvedIsland& island, std::uint32_t robot) {
         model.static_bvh.query(bounds(shape.shape, work.shapes[s].X_WS).inflated(reach), scenery_);
         for (const std::uint32_t i : scenery_) {
             const StaticShape& scenery = model.statics[i];
-            const NearMiss pair{static_cast<int>(robot), -1, static_cast<std::uint32_t>(s), i};
+            const NearMiss pair{{static_cast<int>(robot), -1, static_cast<std::uint32_t>(s), i}, {}};
             const bool is_known =
                 std::ranges::binary_search(island.near_misses, pair) ||
-                std::ranges::any_of(own, [&](const Contact* c) { return pair_of(*c) == pair; });
+                std::ranges::any_of(own, [&](const Contact* c) { return pair == pair_of(*c); });
             if (is_known || scenery.shape.kind == ShapeKind::kPlane) continue;
             if (may_collide(shape.material, scenery.material)) find_missed(island, pair);
         }
@@ -221,7 +222,7 @@ std::optional<double> SecondLook::time_of_sinking(const Course& a, const Course&
 /// `contacts`: of one pair of shapes. At the end of the tick no point may be deeper than it was at its
 /// beginning. Where a thin shape has come out behind the other, the end says nothing of where it went in.
 void SecondLook::find_turned(const SolvedIsland& island, std::span<const Contact* const> contacts) {
-    const NearMiss pair = pair_of(*contacts.front());
+    const ShapePair pair = pair_of(*contacts.front());
     const double dt = island.model.dt_s;
     double least = 0;
     for (const Contact* c : contacts) least = std::min(least, c->gap);
@@ -253,7 +254,7 @@ void SecondLook::find_turned(const SolvedIsland& island, std::span<const Contact
     const Manifold m = collide(*a.shape, a.at(dt), *b.shape, b.at(dt), 0);
     const bool is_behind =
         std::ranges::all_of(contacts, [&](const Contact* c) { return dot(c->normal, m.n_W) < 0; });
-    if (m.count > 0 && is_behind && add_first_hit(island, pair, a, b)) return;
+    if (m.count > 0 && is_behind && add_first_hit(island, pair, contacts.front()->normal, a, b)) return;
     for (int i = 0; i < m.count; ++i)
         see(m.n_W, m.points[static_cast<std::size_t>(i)].p_W, m.points[static_cast<std::size_t>(i)].gap);
     set_time();
@@ -263,8 +264,8 @@ void SecondLook::find_turned(const SolvedIsland& island, std::span<const Contact
 bool SecondLook::start(const SolvedIsland& island) {
     const std::size_t count = island.robots.size();
     if (moved_.size() < count) moved_.resize(count), is_moved_.resize(count), turns_.resize(count);
+    if (struck_.size() < count) struck_.resize(count);
     bool any = false;
-    strikes_ = false;
     for (const std::uint32_t m : island.members) {
         const RobotType& type = *island.robots[m].type;
         const auto nv = static_cast<std::size_t>(type.nv);
@@ -272,10 +273,11 @@ bool SecondLook::start(const SolvedIsland& island) {
             island.displacement.subspan(static_cast<std::size_t>(island.offsets[m]), nv);
         is_moved_[m] = 0;
         turns_[m] = may_turn_far(type, displacement, island.model.dt_s);
-        strikes_ |= island.members.size() > 1 && is_struck(island.robots[m], displacement, island.model.dt_s);
-        any |= turns_[m] != 0 || !misses_of(m, island.near_misses).empty();
+        struck_[m] =
+            island.members.size() > 1 && is_struck(island.robots[m], displacement, island.model.dt_s);
+        any |= turns_[m] != 0 || struck_[m] != 0 || !misses_of(m, island.near_misses).empty();
     }
-    return any || strikes_;
+    return any;
 }
 
 bool SecondLook::find(const SolvedIsland& island, bool first) {
@@ -285,7 +287,7 @@ bool SecondLook::find(const SolvedIsland& island, bool first) {
     for (const std::uint32_t m : island.members)
         for (const NearMiss& pair : misses_of(m, island.near_misses)) find_missed(island, pair);
     for (const std::uint32_t m : island.members)
-        if (strikes_) find_struck(island, m);
+        if (struck_[m] != 0) find_struck(island, m);
     const auto turns = [&](int robot) { return robot >= 0 && turns_[static_cast<std::size_t>(robot)] != 0; };
     for (std::size_t c = 0; c < island.contacts.size();) {
         const Contact& contact = *island.contacts[c];
@@ -302,7 +304,7 @@ bool SecondLook::find(const SolvedIsland& island, bool first) {
 /// What was hit is looked at after the motion too.
 void SecondLook::watch_hits() {
     for (std::size_t h = known_; h < hits_.size(); ++h) {
-        const NearMiss pair = pair_of(hits_[h]);
+        const ShapePair pair = pair_of(hits_[h]);
         const auto is_known = [&](const Turned& turned) { return turned.pair == pair; };
         if (std::ranges::none_of(turned_, is_known)) turned_.push_back({pair, 0, hits_[h].normal});
     }
@@ -322,7 +324,7 @@ const ShapeWork& SecondLook::placed(const RobotWork& robot, std::uint32_t shape)
 
 /// True if something was moved. Of two robots that are free the lighter one gives way more.
 bool SecondLook::push_out(std::span<RobotWork> robots, const Model& model, const Turned& turned) {
-    const NearMiss& pair = turned.pair;
+    const ShapePair& pair = turned.pair;
     RobotWork& a = robots[static_cast<std::size_t>(pair.robot_a)];
     const Shape& shape = a.type->shapes[pair.shape_a].shape;
     const Transform X = placed(a, pair.shape_a).X_WS;
@@ -358,7 +360,7 @@ bool SecondLook::push_out(std::span<RobotWork> robots, const Model& model, const
 }
 
 /// Moves two free robots and keeps their common angular momentum: it would change by move x momentum.
-void SecondLook::move_apart(const Model& model, std::span<RobotWork> robots, const NearMiss& pair,
+void SecondLook::move_apart(const Model& model, std::span<RobotWork> robots, const ShapePair& pair,
                             const Vec3& move_a, const Vec3& move_b) {
     const std::array both{static_cast<std::uint32_t>(pair.robot_a), static_cast<std::uint32_t>(pair.robot_b)};
     const Vec3 origin = robots[both[0]].origin;

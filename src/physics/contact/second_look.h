@@ -49,36 +49,37 @@ class SecondLook {
   private:
     /// A pair in contact of which one turns far, or that hits.
     struct Turned {
-        NearMiss pair;
+        ShapePair pair;
         double least = 0;  // m: its least gap at the beginning of the tick, at most 0
         Vec3 normal;       // of a contact
     };
     bool push_out(std::span<RobotWork> robots, const Model& model, const Turned& turned);
-    void move_apart(const Model& model, std::span<RobotWork> robots, const NearMiss& pair, const Vec3& move_a,
-                    const Vec3& move_b);
+    void move_apart(const Model& model, std::span<RobotWork> robots, const ShapePair& pair,
+                    const Vec3& move_a, const Vec3& move_b);
     const ShapeWork& placed(const RobotWork& robot, std::uint32_t shape);
     void find_missed(const SolvedIsland& island, const NearMiss& pair);
-    bool add_first_hit(const SolvedIsland& island, const NearMiss& pair, const Course& a, const Course& b);
+    bool add_first_hit(const SolvedIsland& island, const ShapePair& pair, const Vec3& normal, const Course& a,
+                       const Course& b);
     void find_struck(const SolvedIsland& island, std::uint32_t robot);
     void find_turned(const SolvedIsland& island, std::span<const Contact* const> contacts);
     double gap_at(const Course& a, const Course& b, double t);
     std::optional<double> time_of_sinking(const Course& a, const Course& b, double dt, double least);
-    void hold_planes(const SolvedIsland& island, const NearMiss& pair);
+    void hold_planes(const SolvedIsland& island, const ShapePair& pair);
     bool start(const SolvedIsland& island);
     void watch_hits();
     bool is_pushed(const SolvedIsland& island, int robot) const;
     bool is_bent(const SolvedIsland& island, int robot) const;
     const Mechanics<double>& moved(const SolvedIsland& island, int robot);
     Course course(const SolvedIsland& island, int robot, std::uint32_t shape);
-    void add(const SolvedIsland& island, const NearMiss& pair, const Course& a, const Course& b, double t,
+    void add(const SolvedIsland& island, const ShapePair& pair, const Course& a, const Course& b, double t,
              const Vec3& normal, const Vec3& p_W, double gap);
 
     std::vector<Mechanics<double>> moved_;  // by robot: with the velocities of the displacement
     std::vector<char> is_moved_, turns_;    // by robot
+    std::vector<char> struck_;              // by robot: it may move further than contacts were searched for
     std::vector<Contact> hits_;
     std::size_t known_ = 0;  // hits that have rows
     bool first_ = false;     // round
-    bool strikes_ = false;   // a robot may move further than contacts were searched for
     std::vector<Turned> turned_;
     std::vector<std::uint32_t> scenery_;
     RobotWork placed_;  // where a robot is after the tick
