@@ -31,6 +31,12 @@ class Bus {
     /// each is reported once. A hint that is faster than a timeout: a Bus that cannot tell reports nothing,
     /// and a wrong hint costs time only.
     virtual std::vector<Address> take_vanished(const Address&) { return {}; }
+    /// From now on the Bus sends this heartbeat of `from` while `from` sends none itself, because its step is
+    /// long; not without end, so that a member that hangs is still noticed. A Bus of one thread does nothing.
+    virtual void keep_alive(const Address& from, const Address& to, const Heartbeat& heartbeat) {
+        (void)from, (void)to, (void)heartbeat;
+    }
+    virtual void end_keep_alive(const Address& from) { (void)from; }
     /// To be called between two advance() of the roles: returns when a message may have arrived for an
     /// address of this process, at the latest after `ms_max`. A Bus whose messages need no time returns at
     /// once.

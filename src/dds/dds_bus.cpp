@@ -11,6 +11,7 @@
 #include "bus/flow_count.h"
 #include "core/hash.h"
 #include "dds/endpoints.h"
+#include "dds/pulse.h"
 #include "wire/codec.h"
 
 namespace roboss {
@@ -134,12 +135,31 @@ struct DdsBus::Network {
             home.heartbeats.reset();
             home.writers.clear();
         }
+        for (auto& [address, beat] : beats) beat.pulse.reset();
         participant.reset();
         Result<std::unique_ptr<Participant>> again = Participant::create(options);
         ROBOSS_CHECK(again.ok(), again.error().text());
         participant = std::move(again).value();
         for (auto& [address, home] : homes) open(address, home);
+        for (auto& [address, beat] : beats) begin(beat);
         return Ok{};
+    }
+
+    /// Heartbeats of an address of this process that go out while it is busy.
+    struct Beat {
+        Address to;
+        std::vector<std::uint8_t> message;
+        std::unique_ptr<Pulse> pulse;
+    };
+
+    void begin(Beat& beat) {
+        const std::string name = topic(beat.to, TopicKind::kHeartbeats);
+        // Its own, since an Outbox belongs to one thread.
+        const std::shared_ptr<Outbox> outbox = Outbox::open(*participant, name, TopicKind::kHeartbeats, bell);
+        ROBOSS_CHECK(outbox != nullptr, "DDS made no writer for " + name);
+        beat.pulse = std::make_unique<Pulse>(
+            [outbox, message = beat.message](std::int64_t now) { outbox->send(message, now); },
+            Pulse::Limits{});
     }
 
     /// A member without a Controller may join the next one that appears.
@@ -218,6 +238,7 @@ struct DdsBus::Network {
     std::map<Address, Home> homes;
     std::map<std::pair<Address, TopicKind>, std::unique_ptr<Outbox>> outboxes;
     std::map<Address, std::int64_t> heard_ms;
+    std::map<Address, Beat> beats;
     FlowCount count;
 };
 
@@ -241,6 +262,8 @@ void DdsBus::send(const Address& from, const Address& to, Message message) {
         return;
     }
     const TopicKind kind = kind_of(message);
+    if (const auto beat = network_->beats.find(from); beat != network_->beats.end() && to == beat->second.to)
+        beat->second.pulse->note_own(now_ms());
     const std::vector<std::uint8_t> bytes =
         with_run(network_->run, encode(Envelope{from, to, std::move(message)}));
     network_->count.add(from, to, bytes.size());
@@ -276,6 +299,19 @@ void DdsBus::wait(std::int64_t ms_max) {
     if (local) return;
     const bool done = network_->pump();
     network_->bell.wait(done ? ms_max : std::min<std::int64_t>(ms_max, 1));
+}
+
+void DdsBus::keep_alive(const Address& from, const Address& to, const Heartbeat& heartbeat) {
+    if (network_->homes.contains(to)) return;  // in this process, so in the same thread
+    Network::Beat& beat = network_->beats[from];
+    beat.pulse.reset();
+    beat.to = to;
+    beat.message = with_run(network_->run, encode(Envelope{from, to, heartbeat}));
+    network_->begin(beat);
+}
+
+void DdsBus::end_keep_alive(const Address& from) {
+    network_->beats.erase(from);
 }
 
 std::vector<Flow> DdsBus::flows() const {

@@ -28,6 +28,8 @@ class DdsBus : public Bus {
     std::int64_t now_ms() override { return monotonic_ms(); }
     std::vector<Address> take_vanished(const Address& self) override;
     void wait(std::int64_t ms_max) override;
+    void keep_alive(const Address& from, const Address& to, const Heartbeat& heartbeat) override;
+    void end_keep_alive(const Address& from) override;
     std::vector<Flow> flows() const override;
 
     /// Whether a process that owns this address is connected now. Asking makes the connection.

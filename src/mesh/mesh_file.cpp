@@ -16,6 +16,7 @@
 #include <tuple>
 
 #include "math/aabb.h"
+#include "mesh/check_collada.h"
 #include "mesh/repair_collada.h"
 
 namespace roboss {
@@ -208,6 +209,16 @@ std::string straight(const std::string& path) {
     return error ? path : (folder / file.filename()).string();
 }
 
+/// What to do about a file of a kind that is not read.
+std::string remedy_for_kind(const std::string& extension) {
+    const std::string kinds = "STL, OBJ, DAE (COLLADA), GLB (glTF), FBX or PLY";
+    if (extension == ".wrl" || extension == ".vrml" || extension == ".x3d" || extension == ".x3dv")
+        return "VRML and X3D are not read. Convert it to " + kinds +
+               ": import and export it in Blender (X3D/VRML2), or `meshlabserver -i mesh" + extension +
+               " -o mesh.dae`.";
+    return "Convert it to " + kinds + ".";
+}
+
 Result<const aiScene*> open_scene(Assimp::Importer& importer, const std::string& given) {
     const std::string path = straight(given);
     std::error_code error;
@@ -217,18 +228,16 @@ Result<const aiScene*> open_scene(Assimp::Importer& importer, const std::string&
     if (bytes > kBytesMax) return Error{"is larger than 512 MiB", "Give a coarser mesh for the collision."};
     const std::string extension = extension_of(path);
     if (std::ranges::find(kKinds, extension) == std::end(kKinds))
-        return Error{"is of a kind ('" + extension + "') that is not read",
-                     "Convert it to STL, OBJ, DAE (COLLADA), GLB (glTF), FBX or PLY."};
+        return Error{"is of a kind ('" + extension + "') that is not read", remedy_for_kind(extension)};
     importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, true);
     importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_USE_COLLADA_NAMES, true);
     const auto read_collada = [&](const std::string& text) {
         return importer.ReadFileFromMemory(text.data(), text.size(), aiProcess_Triangulate, "dae");
     };
     const std::string text = extension == ".dae" ? text_of(path) : std::string();
-    if (const std::string word = bad_index_in_collada(text); !word.empty())
-        return Error{"is no mesh that can be read: '" + word + "' stands among the indices of its faces",
-                     "Export it anew."};
-    const std::string plain = text.empty() ? text : collada_without_skins(text);
+    if (!text.empty())
+        if (const Result<> good = check_collada(given, text); !good) return good.error();
+    const std::string plain = text.empty() ? text : collada_at_rest(text);
     const aiScene* scene =
         plain.empty() ? importer.ReadFile(path, aiProcess_Triangulate) : read_collada(plain);
     const std::string why = importer.GetErrorString();

@@ -247,6 +247,13 @@ TEST(MeshFile, EveryFaultIsNamed) {
     EXPECT_FALSE(read_mesh({"/no/such/file.stl", {1, 1, 1}, "", false}).ok());
 }
 
+TEST(MeshFile, VrmlIsAnErrorWithTheWaysToConvertIt) {
+    const Folder folder;
+    const auto file = read_mesh({folder.write("hand.wrl", "#VRML V2.0 utf8\n"), {1, 1, 1}, "", false});
+    ASSERT_FALSE(file.ok());
+    EXPECT_NE(file.error().remedy.find("Blender"), std::string::npos) << file.error().text();
+}
+
 TEST(MeshFile, BytesChangedAtRandomNeverCrash) {
     const Folder folder;
     std::uint64_t seed = 1;

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cctype>
 #include <map>
-#include <string_view>
 
 namespace roboss {
 namespace {
@@ -94,10 +93,10 @@ std::map<std::string, std::string> geometry_by_controller(const std::string& tex
 
 }  // namespace
 
-std::string collada_without_skins(const std::string& text) {
+std::string collada_at_rest(const std::string& text) {
     const auto sources = geometry_by_controller(text);
-    if (sources.empty()) return {};
-    std::string result = without(text, "library_controllers");
+    if (sources.empty() && text.find("<library_animations") == std::string::npos) return {};
+    std::string result = without(without(text, "library_animations"), "library_controllers");
     const std::string open = "<instance_controller", close = "</instance_controller>";
     for (std::size_t at = 0; (at = result.find(open, at)) != std::string::npos;) {
         const auto found = sources.find(attribute_of(result, at, "url"));
@@ -118,27 +117,6 @@ std::string repaired_collada(const std::string& text) {
     for (const char* element : {"texture", "library_images", "library_animations", "library_controllers"})
         result = without(std::move(result), element);
     return result;
-}
-
-std::string bad_index_in_collada(const std::string& text) {
-    constexpr std::string_view kLists[] = {"p", "h", "v", "vcount"};
-    const auto in_list = [](char c) { return is_space(c) || (begins_number(c) && c != '.'); };
-    for (std::size_t open = 0; (open = text.find('<', open)) != std::string::npos; ++open) {
-        const std::size_t name_end = text.find_first_of(" \t\r\n/>", open + 1);
-        const std::size_t tag_end = text.find('>', open);
-        if (name_end == std::string::npos || tag_end == std::string::npos) break;
-        const std::string_view name = std::string_view(text).substr(open + 1, name_end - open - 1);
-        if (std::ranges::find(kLists, name) == std::end(kLists) || text[tag_end - 1] == '/') continue;
-        const std::size_t end = std::min(text.find('<', tag_end), text.size());
-        std::size_t at = tag_end + 1;
-        while (at < end && in_list(text[at])) ++at;
-        if (at == end) continue;
-        std::size_t first = at, last = at;
-        while (first > tag_end + 1 && !is_space(text[first - 1])) --first;
-        while (last < end && !is_space(text[last])) ++last;
-        return text.substr(first, std::min<std::size_t>(last - first, 40));
-    }
-    return {};
 }
 
 }  // namespace roboss

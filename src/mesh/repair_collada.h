@@ -9,12 +9,9 @@ namespace roboss {
 /// what is drawn over such a mesh is lost, its triangles are not.
 std::string repaired_collada(const std::string& text);
 
-/// The same file with the meshes of its skins and morphs as plain geometry, and without their weights; empty:
-/// it has none. assimp 5.2 ends the program over weights that are not there.
-std::string collada_without_skins(const std::string& text);
-
-/// The first word in a list of indices (<p>, <h>, <v>, <vcount>) that is no integer; empty: none. assimp 5.2
-/// does not go on behind such a word, and takes all memory.
-std::string bad_index_in_collada(const std::string& text);
+/// The same file with the meshes of its skins and morphs as plain geometry, and without their weights and
+/// without animations; empty: it has none of them. assimp 5.2 ends the program over weights that are not
+/// there.
+std::string collada_at_rest(const std::string& text);
 
 }  // namespace roboss

@@ -122,9 +122,9 @@ void Simulator::handle(Bus& bus, Envelope& envelope) {
     } else if (auto* reply = std::get_if<StateReply>(&envelope.message)) {
         take_states(*reply);
     } else if (const auto* welcome = std::get_if<Welcome>(&envelope.message)) {
-        if (!id_.valid()) id_ = welcome->simulator;  // if it is outdated, the Controller will expel it
+        if (!id_.valid()) take_seat(bus, welcome->simulator);
     } else if (const auto* expelled = std::get_if<Expelled>(&envelope.message)) {
-        if (expelled->simulator == id_) reset();
+        if (expelled->simulator == id_) reset(bus);
     } else if (const auto* goodbye = std::get_if<Goodbye>(&envelope.message)) {
         if (goodbye->simulator != id_) return;
         gone_ = true;
@@ -138,6 +138,13 @@ void Simulator::handle(Bus& bus, Envelope& envelope) {
         over_ = over->reason;
         gone_ = true;
     }
+    if (gone_) bus.end_keep_alive(self_);
+}
+
+/// If it is outdated, the Controller will expel it.
+void Simulator::take_seat(Bus& bus, SimulatorId id) {
+    id_ = id;
+    bus.keep_alive(self_, kControllerAddress, Heartbeat{id_});
 }
 
 void Simulator::take_assignment(Bus& bus, Assignment& assignment) {
@@ -314,7 +321,8 @@ void Simulator::send_heartbeats(Bus& bus) {
     bus.send(self_, kControllerAddress, Heartbeat{id_});
 }
 
-void Simulator::reset() {
+void Simulator::reset(Bus& bus) {
+    bus.end_keep_alive(self_);
     id_ = SimulatorId{};
     assignment_.reset();
     awaiting_orders_.reset();

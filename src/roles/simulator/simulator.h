@@ -63,6 +63,7 @@ class Simulator {
 
   private:
     void handle(Bus& bus, Envelope& envelope);
+    void take_seat(Bus& bus, SimulatorId id);
     void take_assignment(Bus& bus, Assignment& assignment);
     std::string flaw_of(const Assignment& assignment) const;
     void note_dropped(const char* message, std::uint64_t window, const std::string& why);
@@ -82,7 +83,7 @@ class Simulator {
     void keep_wanted();
     void keep_in_touch(Bus& bus);
     void send_heartbeats(Bus& bus);
-    void reset();
+    void reset(Bus& bus);
 
     std::shared_ptr<const Model> model_;
     Address self_;

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <functional>
+#include <map>
 
 #include <support/robots.h>
 #include <support/simulation.h>
@@ -129,6 +130,39 @@ TEST_F(AssignmentsFromTheWire, OneThatMakesNoSenseIsDroppedByReason) {
     }
     send(assignment(1, 0, 4));
     EXPECT_NE(answer(1), 0u) << "the same attempt, without a flaw";
+}
+
+/// Notes which addresses have a pulse.
+class PulseBus : public InProcessBus {
+  public:
+    void keep_alive(const Address& from, const Address& to, const Heartbeat& heartbeat) override {
+        EXPECT_EQ(to, kControllerAddress);
+        pulses[from] = heartbeat.simulator;
+    }
+    void end_keep_alive(const Address& from) override { pulses.erase(from); }
+    std::map<Address, SimulatorId> pulses;
+};
+
+TEST(Simulator, HasAPulseAsLongAsItHasASeat) {
+    const Simulation sim(three_balls());
+    ThreadPool pool(1);
+    PulseBus bus;
+    Simulator simulator(sim.model, kSelf, {}, pool);
+    const auto send = [&](Message message) {
+        bus.send(kControllerAddress, kSelf, std::move(message));
+        simulator.advance(bus);
+    };
+    simulator.advance(bus);
+    EXPECT_TRUE(bus.pulses.empty());
+    send(Welcome{kId});
+    EXPECT_EQ(bus.pulses, (std::map<Address, SimulatorId>{{kSelf, kId}}));
+    send(Expelled{kId});
+    EXPECT_TRUE(bus.pulses.empty());
+    const SimulatorId next(6u);
+    send(Welcome{next});
+    EXPECT_EQ(bus.pulses, (std::map<Address, SimulatorId>{{kSelf, next}}));
+    send(RunOver{"the run is over"});
+    EXPECT_TRUE(bus.pulses.empty());
 }
 
 }  // namespace
