@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <tuple>
+#include <utility>
 
 #include "core/check.h"
 #include "core/float_env.h"
@@ -39,6 +41,7 @@ struct Helper {
 struct Unit {
     enum class Kind : std::uint8_t { kGroup, kLanes, kAlone } kind = Kind::kGroup;
     std::size_t first = 0, last = 0;  // of NearSets::near() or Impl::lone
+    std::size_t weight = 0;           // of its robots
 };
 
 }  // namespace
@@ -255,21 +258,41 @@ void step_lone_robots(const StepCall& call, Impl& s) {
         });
 }
 
-std::size_t weight_of(const StepCall& call, const Unit& unit, Impl& s) {
-    const std::span<const std::uint32_t> robots =
-        unit.kind == Unit::Kind::kGroup ? std::span<const std::uint32_t>(s.sets.near()) : s.lone;
-    std::size_t sum = 0;
-    for (const std::uint32_t i : robots.subspan(unit.first, unit.last - unit.first))
-        sum += weight_of(call.model.type_of(call.robots[i]));
-    return sum;
+/// Notes the weight of each unit; returns that of all.
+std::size_t weigh_units(const StepCall& call, Impl& s) {
+    std::size_t all = 0;
+    for (Unit& unit : s.units) {
+        const std::span<const std::uint32_t> robots =
+            unit.kind == Unit::Kind::kGroup ? std::span<const std::uint32_t>(s.sets.near()) : s.lone;
+        unit.weight = 0;
+        for (const std::uint32_t i : robots.subspan(unit.first, unit.last - unit.first))
+            unit.weight += weight_of(call.model.type_of(call.robots[i]));
+        all += unit.weight;
+    }
+    return all;
+}
+
+/// Adjacent robots that are stepped alone become one unit.
+void join_lone_units(Impl& s) {
+    constexpr std::size_t kBlock = 16;
+    std::size_t kept = 0;
+    for (const Unit& unit : s.units) {
+        Unit* last = kept > 0 ? &s.units[kept - 1] : nullptr;
+        if (last != nullptr && unit.kind == Unit::Kind::kAlone && last->kind == Unit::Kind::kAlone &&
+            last->last == unit.first && last->last - last->first < kBlock && unit.weight < kTeamFrom &&
+            last->weight < kTeamFrom)
+            last->last = unit.last, last->weight += unit.weight;
+        else
+            s.units[kept++] = unit;
+    }
+    s.units.resize(kept);
 }
 
 /// Adds them to the units instead of stepping them.
 void list_lone_robots(const StepCall& call, Impl& s) {
-    constexpr std::size_t kBlock = 16;
     s.lone.clear();
     const auto list = [&](Unit::Kind kind, std::size_t first) {
-        if (s.lone.size() > first) s.units.push_back({kind, first, s.lone.size()});
+        if (s.lone.size() > first) s.units.push_back({kind, first, s.lone.size(), 0});
     };
     for_each_lone(
         call, s,
@@ -283,18 +306,6 @@ void list_lone_robots(const StepCall& call, Impl& s) {
             s.lone.push_back(i);
             list(Unit::Kind::kAlone, s.lone.size() - 1);
         });
-    // adjacent robots that are stepped alone become one unit
-    std::size_t kept = 0;
-    for (const Unit& unit : s.units) {
-        Unit* last = kept > 0 ? &s.units[kept - 1] : nullptr;
-        if (last != nullptr && unit.kind == Unit::Kind::kAlone && last->kind == Unit::Kind::kAlone &&
-            last->last == unit.first && last->last - last->first < kBlock &&
-            weight_of(call, unit, s) < kTeamFrom && weight_of(call, *last, s) < kTeamFrom)
-            last->last = unit.last;
-        else
-            s.units[kept++] = unit;
-    }
-    s.units.resize(kept);
 }
 
 void step_unit(const StepCall& call, const Unit& unit, Helper& helper, Impl& s) {
@@ -328,29 +339,49 @@ void add_report(const StepReport& from, StepReport& to) {
     note_failure_of(from, to);
 }
 
-/// Large groups by all threads of the team, one after the other; then what is small, side by side. No bit
-/// depends on it.
-void step_side_by_side(const StepCall& call, Impl& s) {
-    list_lone_robots(call, s);
+/// Puts first the units that all threads step together, which are more than a thread's share; the others as
+/// they come, of the share of each thread the largest first. Returns how many are first.
+std::size_t sort_units(std::size_t all, Impl& s) {
+    const Team& team = s.group.team;
     const auto is_large = [&](const Unit& unit) {
         const bool one = unit.kind == Unit::Kind::kGroup || unit.last - unit.first == 1;
-        return unit.kind != Unit::Kind::kLanes && one && weight_of(call, unit, s) >= kTeamFrom;
+        return unit.kind != Unit::Kind::kLanes && one && unit.weight >= kTeamFrom &&
+               unit.weight * team.size() > all;
     };
-    for (const Unit& unit : s.units) {
-        if (!is_large(unit)) continue;
+    const auto first_other = std::partition(s.units.begin(), s.units.end(), is_large);
+    const auto key = [](const Unit& unit) { return std::tuple(unit.kind, unit.first); };
+    std::sort(first_other, s.units.end(), [&](const Unit& a, const Unit& b) { return key(a) < key(b); });
+    const std::span<Unit> others(first_other, s.units.end());
+    for (std::size_t worker = 0; worker < team.size(); ++worker) {
+        const std::size_t begin = team.first_of(others.size(), worker),
+                          end = team.first_of(others.size(), worker + 1);
+        std::ranges::sort(others.subspan(begin, end - begin), [&](const Unit& a, const Unit& b) {
+            return std::pair(b.weight, key(a)) < std::pair(a.weight, key(b));
+        });
+    }
+    return s.units.size() - others.size();
+}
+
+/// Groups of more than a thread's share by all threads of the team, one after the other; then the others,
+/// side by side. No bit depends on it.
+void step_side_by_side(const StepCall& call, Impl& s) {
+    list_lone_robots(call, s);
+    const std::size_t all = weigh_units(call, s);
+    join_lone_units(s);
+    const std::size_t large = sort_units(all, s);
+    for (const Unit& unit : std::span(s.units).first(large)) {
         if (unit.kind == Unit::Kind::kGroup)
             step_sets(call, unit, s.works, s.group, s);
         else
             step_group(call, {&s.lone[unit.first], 1}, s.alone, s.group, s);
     }
-    std::erase_if(s.units, is_large);
     call.clock.enter(Stage::kVelocities);  // of all that follows; it is most of it
     prepare_helpers(s);
-    s.group.team.run(s.units.size(), [&](std::size_t k, std::size_t worker) {
+    s.group.team.run(s.units.size() - large, [&](std::size_t k, std::size_t worker) {
         Helper& helper = s.helpers[worker];
         step_unit({call.model, call.tick, call.robots, call.states, call.bounds, call.ordered, helper.report,
                    helper.clock},
-                  s.units[k], helper, s);
+                  s.units[large + k], helper, s);
     });
     for (const Helper& helper : s.helpers) add_report(helper.report, call.report);
 }

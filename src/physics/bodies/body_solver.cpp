@@ -117,13 +117,23 @@ void BodySolver::prepare_factor() {
 }
 
 /// Much in a deep pile, little in a stack or a low wall. Begins the analysis of the factor, and ends it if
-/// there is little.
+/// there is little. Of a pile with the contacts of the last deep one nothing is analysed: a tick solves for
+/// velocities, then for displacements.
 Fill BodySolver::find_fill() {
     constexpr std::size_t kLargePile = 256, kMostUpdates = 100;  // bodies; updates of blocks, by body
     const std::size_t bodies = island_.bodies.size();
     if (bodies < kLargePile) return Fill::kLittle;
+    const auto joins_as = [](const BodyPoint& p, const Joined& last) {
+        return p.a == last.a && p.b == last.b;
+    };
+    if (bodies == deep_bodies_ && std::ranges::equal(island_.points, deep_joined_, joins_as))
+        return Fill::kMuch;
     analysed_ = island_.order.analyse(bodies, island_.points, kMostUpdates * bodies);
-    return analysed_ ? Fill::kLittle : Fill::kMuch;
+    if (analysed_) return Fill::kLittle;
+    deep_bodies_ = bodies;
+    deep_joined_.clear();
+    for (const BodyPoint& p : island_.points) deep_joined_.push_back({p.a, p.b});
+    return Fill::kMuch;
 }
 
 void BodySolver::keep_start() {

@@ -75,6 +75,11 @@ class BodySolver {
     bool swept_ = false;     // sweeps have found velocities; v_start_ holds those before
     bool analysed_ = false;  // the order of the factor is known
     Fill fill_ = Fill::kLittle;
+    struct Joined {
+        int a = 0, b = -1;  // bodies
+    };
+    std::size_t deep_bodies_ = 0;      // of the last pile with much fill
+    std::vector<Joined> deep_joined_;  // by its points
     double residual_ = 0;
     int iterations_ = 0;
     std::vector<std::uint32_t> local_;  // by robot of the problem: its body

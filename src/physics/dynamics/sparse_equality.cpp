@@ -16,6 +16,8 @@ namespace {
 // A row whose mobility, given those before it, is below this share of its own counts as implied by them.
 constexpr double kImplied = 1e-7;
 
+constexpr std::size_t kBlock = 64;  // bodies or nodes that a thread of a team takes at a time
+
 /// The inverse of a symmetric matrix that is positive definite.
 Mat3 inverse_of(const Mat3& m) {
     const Vec3 a = cross(m.r1, m.r2), b = cross(m.r2, m.r0), c = cross(m.r0, m.r1);
@@ -60,12 +62,14 @@ void SparseEqualitySolver::prepare(const RobotWork& work, std::span<const char> 
 void SparseEqualitySolver::prepare_bodies() {
     const RobotType& type = *work_->type;
     mobilities_.resize(type.bodies.size());
-    for (std::size_t b = 0; b < type.bodies.size(); ++b) {
-        const Body& body = type.bodies[b];
-        const Mat3& R = work_->bodies[b].X_WB.R;
-        mobilities_[b] = {1.0 / body.mass, R * inverse_of(body.inertia_C) * transpose(R),
-                          work_->bodies[b].centre};
-    }
+    team_.run_blocks(type.bodies.size(), kBlock, [&](std::size_t first, std::size_t last) {
+        for (std::size_t b = first; b < last; ++b) {
+            const Body& body = type.bodies[b];
+            const Mat3& R = work_->bodies[b].X_WB.R;
+            mobilities_[b] = {1.0 / body.mass, R * inverse_of(body.inertia_C) * transpose(R),
+                              work_->bodies[b].centre};
+        }
+    });
 }
 
 /// How a body moves when it gets this impulse; the fixed base does not.
@@ -81,7 +85,7 @@ void SparseEqualitySolver::gather_rows(const Equalities& equalities) {
     loop_rows_.assign(work_->type->loops.size() + 1, 0);
     for (const EqualityRow& row : equalities.rows) ++loop_rows_[static_cast<std::size_t>(row.loop) + 1];
     for (std::size_t i = 1; i < loop_rows_.size(); ++i) loop_rows_[i] += loop_rows_[i - 1];
-    first_row_.assign(1, 0), count_.clear(), rows_.clear(), wanted_of_.clear(), scale_.clear();
+    first_row_.assign(1, 0), count_.clear(), rows_.clear(), wanted_of_.clear();
     for (std::size_t k = 0; k < elimination.nodes.size(); ++k) {
         const JointElimination::Node& node = elimination.nodes[k];
         if (node.loop < 0) {
@@ -95,8 +99,11 @@ void SparseEqualitySolver::gather_rows(const Equalities& equalities) {
         }
         count_.push_back(rows_.size() - first_row_.back());
         first_row_.push_back(rows_.size());
-        scale_rows(k);
     }
+    scale_.resize(rows_.size());
+    team_.run_blocks(count_.size(), kBlock, [&](std::size_t first, std::size_t last) {
+        for (std::size_t k = first; k < last; ++k) scale_rows(k);
+    });
 }
 
 /// What the joint between a body and its parent bears.
@@ -127,7 +134,7 @@ void SparseEqualitySolver::scale_rows(std::size_t node) {
         const double mobility = dot(row.wrench, row.by_b) - dot(row.wrench, row.by_a);
         const double scale = mobility > 0 ? 1.0 / std::sqrt(mobility) : 0.0;
         row.wrench = row.wrench * scale, row.by_a = row.by_a * scale, row.by_b = row.by_b * scale;
-        scale_.push_back(scale);
+        scale_[i] = scale;
     }
 }
 
@@ -162,26 +169,35 @@ SparseEqualitySolver::Axes SparseEqualitySolver::axes_of(std::size_t body, const
     return axes;
 }
 
+/// What forces along a joint do to its body; the opposite acts on the parent.
+Spatial SparseEqualitySolver::wrench_of(std::size_t body, std::span<const double> forces) const {
+    const Vec3 p = work_->bodies[body].X_WB.p - work_->origin;
+    const Axes axes = axes_of(body, p);
+    std::array<double, 6> x;
+    for (std::size_t i = 0; i < axes.count; ++i) x[i] = forces[axes.dof[i]];
+    solve_axes(std::span(axes.axis).first(axes.count), x.data());
+    Spatial wrench;
+    for (std::size_t i = 0; i < axes.count; ++i) wrench += axes.axis[i] * x[i];
+    return force_from(wrench, p);
+}
+
 /// How each body would move by forces along the joints if none held another.
 void SparseEqualitySolver::move_bodies(std::span<const double> forces) {
     const RobotType& type = *work_->type;
+    joint_wrenches_.resize(type.bodies.size());
+    team_.run_blocks(type.bodies.size(), kBlock, [&](std::size_t first, std::size_t last) {
+        for (std::size_t b = first; b < last; ++b) joint_wrenches_[b] = wrench_of(b, forces);
+    });
     wrenches_.assign(type.bodies.size(), {});
     for (std::size_t b = 0; b < type.bodies.size(); ++b) {
-        const Vec3 p = work_->bodies[b].X_WB.p - work_->origin;
-        const Axes axes = axes_of(b, p);
-        std::array<double, 6> x;
-        for (std::size_t i = 0; i < axes.count; ++i) x[i] = forces[axes.dof[i]];
-        solve_axes(std::span(axes.axis).first(axes.count), x.data());
-        Spatial wrench;
-        for (std::size_t i = 0; i < axes.count; ++i) wrench += axes.axis[i] * x[i];
-        wrench = force_from(wrench, p);
-        wrenches_[b] += wrench;
+        wrenches_[b] += joint_wrenches_[b];
         if (type.bodies[b].parent >= 0)
-            wrenches_[static_cast<std::size_t>(type.bodies[b].parent)] += wrench * -1.0;
+            wrenches_[static_cast<std::size_t>(type.bodies[b].parent)] += joint_wrenches_[b] * -1.0;
     }
     change_.resize(type.bodies.size());
-    for (std::size_t b = 0; b < type.bodies.size(); ++b)
-        change_[b] = moved(static_cast<int>(b), wrenches_[b]);
+    team_.run_blocks(type.bodies.size(), kBlock, [&](std::size_t first, std::size_t last) {
+        for (std::size_t b = first; b < last; ++b) change_[b] = moved(static_cast<int>(b), wrenches_[b]);
+    });
 }
 
 /// x_ := what the rows lack of `wanted` at the bodies' motions.
@@ -232,22 +248,25 @@ void SparseEqualitySolver::push_bodies() {
     }
 }
 
-/// The joints' rates from the motions of the bodies, by least squares.
-void SparseEqualitySolver::read_joints(std::span<double> change) {
-    const RobotType& type = *work_->type;
-    for (std::size_t b = 0; b < type.bodies.size(); ++b) {
-        const Body& body = type.bodies[b];
-        const Vec3 p = work_->bodies[b].X_WB.p - work_->origin;
-        Spatial motion = change_[b];
-        if (body.parent >= 0) motion = motion - change_[static_cast<std::size_t>(body.parent)];
-        motion = motion_about(motion, p);
-        for (int k = 0; k < body.nv; ++k) change[static_cast<std::size_t>(body.v_index + k)] = 0;
-        const Axes axes = axes_of(b, p);
-        std::array<double, 6> rates;
-        for (std::size_t i = 0; i < axes.count; ++i) rates[i] = dot(axes.axis[i], motion);
-        solve_axes(std::span(axes.axis).first(axes.count), rates.data());
-        for (std::size_t i = 0; i < axes.count; ++i) change[axes.dof[i]] = rates[i];
-    }
+/// The rates of a body's joint from the motions of the bodies, by least squares.
+void SparseEqualitySolver::read_joint(std::size_t b, std::span<double> change) const {
+    const Body& body = work_->type->bodies[b];
+    const Vec3 p = work_->bodies[b].X_WB.p - work_->origin;
+    Spatial motion = change_[b];
+    if (body.parent >= 0) motion = motion - change_[static_cast<std::size_t>(body.parent)];
+    motion = motion_about(motion, p);
+    for (int k = 0; k < body.nv; ++k) change[static_cast<std::size_t>(body.v_index + k)] = 0;
+    const Axes axes = axes_of(b, p);
+    std::array<double, 6> rates;
+    for (std::size_t i = 0; i < axes.count; ++i) rates[i] = dot(axes.axis[i], motion);
+    solve_axes(std::span(axes.axis).first(axes.count), rates.data());
+    for (std::size_t i = 0; i < axes.count; ++i) change[axes.dof[i]] = rates[i];
+}
+
+void SparseEqualitySolver::read_joints(std::span<double> change) const {
+    team_.run_blocks(work_->type->bodies.size(), kBlock, [&](std::size_t first, std::size_t last) {
+        for (std::size_t b = first; b < last; ++b) read_joint(b, change);
+    });
 }
 
 }  // namespace roboss

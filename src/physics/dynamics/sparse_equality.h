@@ -48,6 +48,7 @@ class SparseEqualitySolver : BlockLdlt::Source {
 
     void prepare_bodies();
     Axes axes_of(std::size_t body, const Vec3& p) const;
+    Spatial wrench_of(std::size_t body, std::span<const double> forces) const;
     void move_bodies(std::span<const double> forces);
     void set_lacking(std::span<const double> wanted);
     void push_bodies();
@@ -56,7 +57,8 @@ class SparseEqualitySolver : BlockLdlt::Source {
     void add_tree_row(const Vec3& p, const Spatial& wrench);
     void scale_rows(std::size_t node);
     void add_rows(std::size_t position, BlockLdlt& matrix) const override;
-    void read_joints(std::span<double> change);
+    void read_joint(std::size_t body, std::span<double> change) const;
+    void read_joints(std::span<double> change) const;
 
     Spatial moved(int body, const Spatial& wrench) const;
     bool is_locked(std::size_t dof) const { return !locked_.empty() && locked_[dof] != 0; }
@@ -72,8 +74,8 @@ class SparseEqualitySolver : BlockLdlt::Source {
     std::vector<std::size_t> count_;      // of rows, by node
     BlockLdlt matrix_;
     Team team_;
-    std::vector<double> x_;                   // impulses, by row
-    std::vector<Spatial> change_, wrenches_;  // by body
+    std::vector<double> x_;                                    // impulses, by row
+    std::vector<Spatial> change_, wrenches_, joint_wrenches_;  // by body
 };
 
 }  // namespace roboss

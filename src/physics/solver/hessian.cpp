@@ -84,7 +84,7 @@ bool Hessian::is_last_clique(std::size_t begin) const {
 
 void Hessian::assemble(IslandRows& rows, bool coupled, double lack) {
     if (form_ == Form::kTree) return tree_.assemble(rows, coupled, lack);
-    if (form_ == Form::kNet) return net_.assemble(rows);
+    if (form_ == Form::kNet) return net_.assemble(rows, team_);
     add_changes(rows, lack);
     fronts().begin_factor(!coupled);
     if (coupled) add_slides(rows);

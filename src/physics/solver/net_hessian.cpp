@@ -193,17 +193,24 @@ void NetHessian::number_nodes(std::span<const Mechanics<double>* const> robots) 
     own_pattern_.analyse(nodes_.size(), links_);
 }
 
-void NetHessian::assemble(const IslandRows& rows) {
+void NetHessian::assemble(const IslandRows& rows, const Team& team) {
+    constexpr std::size_t kBlock = 64;  // rows
     parts_.factor(rows);
     over_ = parts_.jacobians();
     const auto divide = [&](const PartJacobian& j) {
         if (j.part >= 0) parts_.over_factor(j.part, over(j));
     };
-    for (const Row& row : rows_)
-        if (row.kind != Kind::kDof) divide(row.a), divide(row.b);
-    for (const Reading& reading : readings_) divide(reading.a), divide(reading.b);
+    team.run_blocks(rows_.size(), kBlock, [&](std::size_t first, std::size_t last) {
+        for (std::size_t i = first; i < last; ++i)
+            if (rows_[i].kind != Kind::kDof) divide(rows_[i].a), divide(rows_[i].b);
+    });
+    team.run_blocks(readings_.size(), kBlock, [&](std::size_t first, std::size_t last) {
+        for (std::size_t i = first; i < last; ++i) divide(readings_[i].a), divide(readings_[i].b);
+    });
     set_curvatures(rows);
-    for (Row& row : rows_) scale(row);
+    team.run_blocks(rows_.size(), kBlock, [&](std::size_t first, std::size_t last) {
+        for (std::size_t i = first; i < last; ++i) scale(rows_[i]);
+    });
 }
 
 void NetHessian::set_curvatures(const IslandRows& rows) {

@@ -33,7 +33,7 @@ class NetHessian : BlockLdlt::Source {
     void start(std::span<const Mechanics<double>* const> robots, std::span<const int> offsets,
                const IslandRows& rows);
     /// Takes the rows' curvatures but those that make the matrix unsymmetric.
-    void assemble(const IslandRows& rows);
+    void assemble(const IslandRows& rows, const Team& team);
     /// x := H^-1 x, once after assemble.
     void solve(std::span<double> x, const Team& team);
 

@@ -146,13 +146,18 @@ void BlockLdlt::plan(const Team& team) {
     for (Buffer& buffer : buffers_) buffer.factors.resize(kPanel * largest), buffer.x.resize(largest);
 }
 
-/// Everything of a front but what its children give.
+/// Rows `first` .. `last` - 1 become zero, from the vector that holds the diagonal.
+void BlockLdlt::clear_rows(const Front& front, std::size_t first, std::size_t last) {
+    double* a = matrix_of(front);
+    for (std::size_t r = first; r < last; ++r)
+        std::fill(a + r * front.stride + r / kFrontLanes * kFrontLanes, a + (r + 1) * front.stride, 0.0);
+}
+
+/// Everything of a cleared front but what its children give.
 void BlockLdlt::start_front(std::size_t f, const Source& source, std::span<const double> x) {
     const BlockPattern::Front& shape = pattern_->fronts()[f];
     const Front& front = fronts_[f];
     double* a = matrix_of(front);
-    for (std::size_t r = 0; r < front.size; ++r)  // from the vector that holds the diagonal
-        std::fill(a + r * front.stride + r / kFrontLanes * kFrontLanes, a + (r + 1) * front.stride, 0.0);
     for (std::size_t p = shape.first; p < shape.last; ++p) {
         source.add_rows(p, *this);
         const std::size_t node = pattern_->node(p);
@@ -209,12 +214,13 @@ void BlockLdlt::factor_front(std::size_t f, const Source& source, std::span<cons
     const Front& front = fronts_[f];
     const double size = static_cast<double>(front.size);
     if (size * size * static_cast<double>(front.own) < kShareRowsFrom) team = {};
-    start_front(f, source, x);
     const std::size_t chunk = padded(std::max<std::size_t>(front.size / (8 * team.size()), 8));
     const auto share = [&](std::size_t begin, std::size_t end, const auto& work) {
         team.run_blocks(end - begin, chunk,
                         [&](std::size_t first, std::size_t last) { work(begin + first, begin + last); });
     };
+    share(0, front.size, [&](std::size_t first, std::size_t last) { clear_rows(front, first, last); });
+    start_front(f, source, x);
     for (const std::size_t child : pattern_->children_of(pattern_->fronts()[f]))
         share(fronts_[child].own, fronts_[child].size,
               [&](std::size_t first, std::size_t last) { add_child(fronts_[child], front, first, last); });
@@ -259,13 +265,13 @@ void BlockLdlt::solve(const Source& source, std::span<double> x, double implied,
     const auto each_of = [&](std::size_t root, const auto& work) {
         for (std::size_t f = first_of_subtree_[root]; f <= root; ++f) work(f);
     };
-    team.run(subtrees_.size(), [&](std::size_t item, std::size_t worker) {
+    team.run_in_order(subtrees_.size(), [&](std::size_t item, std::size_t worker) {  // the dearest first
         each_of(subtrees_[item],
                 [&](std::size_t f) { factor_front(f, source, x, implied, buffers_[worker], {}); });
     });
     for (const std::size_t f : top_) factor_front(f, source, x, implied, buffers_[0], team);
     for (std::size_t i = top_.size(); i-- > 0;) solve_back(top_[i], x, buffers_[0]);
-    team.run(subtrees_.size(), [&](std::size_t item, std::size_t worker) {
+    team.run_in_order(subtrees_.size(), [&](std::size_t item, std::size_t worker) {
         const std::size_t root = subtrees_[item];
         for (std::size_t f = root + 1; f-- > first_of_subtree_[root];) solve_back(f, x, buffers_[worker]);
     });

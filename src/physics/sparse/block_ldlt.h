@@ -67,6 +67,7 @@ class BlockLdlt {
     void lay_out_front(std::size_t f);
     void find_runs(std::size_t f);
     void plan(const Team& team);
+    void clear_rows(const Front& front, std::size_t first, std::size_t last);
     void start_front(std::size_t f, const Source& source, std::span<const double> x);
     void add_child(const Front& child, const Front& parent, std::size_t first, std::size_t last);
     void factor_front(std::size_t f, const Source& source, std::span<const double> x, double implied,

@@ -55,6 +55,13 @@ std::uint32_t Roster::threads() const {
     return threads;
 }
 
+std::uint32_t Roster::fewest_threads() const {
+    std::uint32_t fewest = 0;
+    for (const SeatId seat_id : workers())
+        if (fewest == 0 || seats_[seat_id].threads < fewest) fewest = seats_[seat_id].threads;
+    return std::max(fewest, 1u);
+}
+
 Address Roster::address_of(SeatId seat_id) const {
     return seat_id == kAtController ? kControllerAddress : seats_[seat_id].address;
 }

@@ -53,6 +53,8 @@ class Roster {
     std::vector<SeatId> workers() const;
     /// Threads of all workers.
     std::uint32_t threads() const;
+    /// Threads of the worker that has the fewest; 1 if there is none.
+    std::uint32_t fewest_threads() const;
     Address address_of(SeatId seat_id) const;
     /// A message came from this address. Returns the seat of the Simulator that is alive there.
     std::optional<SeatId> heard_from(Bus& bus, const Address& from);

@@ -57,10 +57,12 @@ TEST_F(Seats, OfThoseThatLeaveGetNoWork) {
     (void)join(kFirst, 4);
     (void)join(kSecond, 0);
     EXPECT_EQ(roster.threads(), 5u) << "at least one thread each";
+    EXPECT_EQ(roster.fewest_threads(), 1u);
     roster.seat(0).leaving = true;
     EXPECT_EQ(roster.leaving(), std::vector<SeatId>{0});
     EXPECT_EQ(roster.workers(), std::vector<SeatId>{1});
     EXPECT_EQ(roster.threads(), 1u);
+    EXPECT_EQ(roster.fewest_threads(), 1u);
     EXPECT_EQ(roster.alive_count(), 2u) << "it is still there";
     roster.release(bus, 0);
     EXPECT_TRUE(roster.leaving().empty());

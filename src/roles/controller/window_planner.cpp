@@ -5,6 +5,7 @@
 
 #include "core/check.h"
 #include "core/float_env.h"
+#include "physics/step.h"
 #include "roles/controller/work_stealing.h"
 
 namespace roboss {
@@ -35,10 +36,14 @@ Tick WindowPlanner::longest() const {
     return options_.window_max > 0 ? options_.window_max : longest_window(motions_.size(), roster_.threads());
 }
 
-/// Robots of the largest island relative to an even share of one worker.
+/// Robots of the largest island relative to an even share of those that step it: one thread, or, if it is
+/// large, all threads of the smallest Simulator (Team). Then shorter windows, which may separate it, gain
+/// nothing, and cost messages and repeats.
 double WindowPlanner::largest_share(const Round& round) const {
-    return static_cast<double>(round.islands.largest()) * roster_.threads() /
-           static_cast<double>(std::max<std::size_t>(motions_.size(), 1));
+    const std::size_t largest = round.islands.largest();
+    const std::uint32_t team = largest >= kTeamFrom ? roster_.fewest_threads() : 1;
+    return static_cast<double>(largest) * roster_.threads() /
+           static_cast<double>(team * std::max<std::size_t>(motions_.size(), 1));
 }
 
 Round WindowPlanner::plan(std::uint32_t epoch, std::uint64_t window, const WindowLimits& limits,

@@ -116,5 +116,32 @@ TEST_F(Windows, RepeatTheIslandsThatTouchedAndNoOthers) {
     EXPECT_LT(planner.length(), before) << "shorter windows need fewer repeats";
 }
 
+/// The length after some windows of one pile that one Simulator of so many threads steps.
+Tick length_for_a_pile(std::size_t robots, std::uint32_t threads) {
+    World world = empty_world(1e-3);
+    for (std::size_t i = 0; i < robots; ++i)
+        place(world, solid_sphere(1.0, 0.1, surface(0.5)), "ball_" + std::to_string(i),
+              {{0.15 * static_cast<double>(i), 0, 1}, {}});
+    const Simulation sim(world);
+    bool is_new = false;
+    Roster roster;
+    (void)roster.seat_for(kFirst, {0, threads, ""}, 0, is_new);
+    const CostModel costs(*sim.model);
+    OrderLog order_log;
+    WindowPlanner planner(sim.model, {}, sim.states, roster, costs, order_log);
+    const StateDirectory directory(robots, 0);
+    for (std::uint64_t window = 1; window <= 3; ++window) {
+        const Round round = planner.plan(0, window, {1000, {}}, directory);
+        EXPECT_EQ(round.islands.largest(), robots);
+        planner.committed(round);
+    }
+    return planner.length();
+}
+
+TEST(WindowsOfAPile, AreShortOnlyWhereItsThreadsDoNotShareIt) {
+    EXPECT_EQ(length_for_a_pile(100, 2), length_for_a_pile(100, 1));
+    EXPECT_LT(length_for_a_pile(50, 2), length_for_a_pile(50, 1));
+}
+
 }  // namespace
 }  // namespace roboss::test
