@@ -1,10 +1,12 @@
 // What the bodies of a type amount to: their masses, how far its shapes reach, which of them may meet.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <set>
 
 #include "model/compile_type.h"
 #include "model/joint_motion.h"
+#include "model/type_extent.h"
 
 namespace roboss {
 namespace {
@@ -23,6 +25,23 @@ double slide_range(const RobotType& type, const Body& body) {
     if (per_unit == 0) return 0.0;
     const Dof& dof = type.dofs[static_cast<std::size_t>(body.v_index - type.base_nv())];
     return per_unit * std::max(std::fabs(dof.lower), std::fabs(dof.upper));
+}
+
+/// How far the shapes of the base [0] and of each body and those that hang on it [1 + body] are from its frame,
+/// in every pose; `of_none` where there are none.
+std::vector<double> extents_of(const RobotType& type, double of_none) {
+    std::vector<double> extent(type.bodies.size() + 1, of_none);
+    for (const BodyShape& s : type.shapes) {
+        double& e = extent[static_cast<std::size_t>(s.body + 1)];
+        e = std::max(e, norm(s.X_BS.p) + bounding_radius(s.shape));
+    }
+    for (std::size_t b = type.bodies.size(); b-- > 0;) {
+        const Body& body = type.bodies[b];
+        if (body.joint == JointKind::kFree) continue;
+        double& e = extent[static_cast<std::size_t>(body.parent + 1)];
+        e = std::max(e, norm(body.X_PJ.p) + slide_range(type, body) + extent[b + 1]);
+    }
+    return extent;
 }
 
 /// For each body the nearest one before it, towards the base, that carries a link. A joint of several motions
@@ -83,18 +102,29 @@ void add_mass(Body& body, const Link& link) {
 }
 
 double reach_of(const RobotType& type) {
-    std::vector<double> extent(type.bodies.size() + 1, 0.0);  // [0]: base frame, [1 + b]: body b
-    for (const BodyShape& s : type.shapes) {
-        double& e = extent[static_cast<std::size_t>(s.body + 1)];
-        e = std::max(e, norm(s.X_BS.p) + bounding_radius(s.shape));
-    }
-    for (std::size_t b = type.bodies.size(); b-- > 0;) {
-        const Body& body = type.bodies[b];
-        if (body.joint == JointKind::kFree) continue;
-        double& e = extent[static_cast<std::size_t>(body.parent + 1)];
-        e = std::max(e, norm(body.X_PJ.p) + slide_range(type, body) + extent[b + 1]);
-    }
+    const std::vector<double> extent = extents_of(type, 0.0);
     return std::max(extent[0], extent.size() > 1 && type.free_base ? extent[1] : 0.0);
+}
+
+ReachSphere reach_sphere_of(const RobotType& type) {
+    const ReachSphere about_base{{}, type.reach};
+    if (type.free_base || type.kinematic || type.is_static || !type.scenery.empty()) return about_base;
+    if (type.shapes.empty()) return {};
+    const std::vector<double> extent = extents_of(type, -std::numeric_limits<double>::infinity());
+    const auto arm = [&](std::size_t b) { return slide_range(type, type.bodies[b]) + extent[b + 1]; };
+    ReachSphere sphere;
+    double longest = 0;
+    for (std::size_t b = 0; b < type.bodies.size(); ++b)
+        if (type.bodies[b].parent < 0 && arm(b) > longest)
+            longest = arm(b), sphere.centre = type.bodies[b].X_PJ.p;
+    for (std::size_t b = 0; b < type.bodies.size(); ++b)
+        if (type.bodies[b].parent < 0)
+            sphere.radius = std::max(sphere.radius, norm(type.bodies[b].X_PJ.p - sphere.centre) + arm(b));
+    for (const BodyShape& s : type.shapes)
+        if (s.body < 0)
+            sphere.radius =
+                std::max(sphere.radius, norm(s.X_BS.p - sphere.centre) + bounding_radius(s.shape));
+    return sphere.radius < about_base.radius ? sphere : about_base;
 }
 
 std::vector<std::pair<int, int>> self_pairs_of(const RobotType& type, const ModelSpec* spec) {

@@ -40,10 +40,11 @@ JointShare joint_share(const RobotType& type, const RobotState& state) {
 
 }  // namespace
 
-Aabb coarse_bound(const RobotType& type, const RobotState& state, double dt) {
+Aabb coarse_bound(const RobotType& type, const ReachSphere& sphere, const RobotState& state, double dt) {
     const JointShare joints = joint_share(type, state);
-    const double reach = type.reach + joints.slid;
-    // A point within reach of the base origin, and a shape's own turning about its centre (place_shapes).
+    const double reach = sphere.radius + joints.slid;
+    // A point within reach of the centre, and a shape's own turning about its centre (place_shapes). Where
+    // the base moves, the centre is its origin.
     double speed = joints.sliding + 3.0 * reach * joints.turning;
     if (type.free_base) {
         const std::vector<double>& v = state.v;
@@ -54,9 +55,10 @@ Aabb coarse_bound(const RobotType& type, const RobotState& state, double dt) {
         speed += norm(base.linear) + 2.0 * reach * norm(base.angular);
     }
     const double half = (reach + kBaseMargin + dt * speed) * (1.0 + kRounding) + kRounding;
-    const Vec3 origin{state.q[0], state.q[1], state.q[2]};
+    Vec3 centre{state.q[0], state.q[1], state.q[2]};
+    if (!(sphere.centre == Vec3{})) centre += rotate(base_pose(state).q, sphere.centre);
     Aabb box;
-    box.include(origin);
+    box.include(centre);
     return box.inflated(half);
 }
 
