@@ -384,6 +384,7 @@ template <class T, class Matrix>
 void Newton<T, Matrix>::start_as_expected(const SolveProblem<T>& p, Lockstep<T>& together, std::vector<T>& v,
                                           SolveReportT<T>& report) {
     report.residual = balance(p);
+    if (p.rows.contacts.empty()) return;  // and lanes need not agree on how far they are
     if (together(report.residual <= T(newton::kRoughly))) return;
     newton::set_curvatures(p.rows);
     if (!together(newton::expect_sticking(p.rows))) return;
@@ -416,11 +417,14 @@ MaskOf<T> Newton<T, Matrix>::iterate(const SolveProblem<T>& p, Lockstep<T>& toge
     constexpr std::size_t kFew = 8;
     const int far_max = p.robots.size() <= kFew && !p.rows.joints.empty() ? 60 : plan_.far_max;
     constexpr int kCoupledTries = 3;
-    int far = 0, bound_updates = 0, stalls = 0, coupled_tries = 0, checks = 0;
+    int bound_updates = 0, stalls = 0, coupled_tries = 0, checks = 0;
+    const bool has_friction = !p.rows.contacts.empty();
+    if (!has_friction) settled = true;
     const bool stays_settled = settled;
-    T best = 1, checked_error = 0;
+    T far = 0, best = 1, checked_error = 0;
     for (int i = 0; together.any(); ++i) {
-        if (together(report.residual <= T(plan_.couple_from))) {
+        // Without friction there is nothing to begin near the balance: lanes need not agree that they are.
+        if (!has_friction || together(report.residual <= T(plan_.couple_from))) {
             if (!settled && hessian_.couples() && coupled_tries < kCoupledTries) {
                 ++coupled_tries;
                 if (solve_coupled(p, together, v, report)) return true;
@@ -452,8 +456,8 @@ MaskOf<T> Newton<T, Matrix>::iterate(const SolveProblem<T>& p, Lockstep<T>& toge
                 continue;
             }
         }
-        if (together(report.residual > T(kFar))) ++far;
-        if (far > far_max || i >= p.accuracy.newton_max) {
+        far += select(report.residual > T(kFar), T(1), T(0));
+        if (together(far > T(far_max)) || i >= p.accuracy.newton_max) {
             if (checks == 0) return report.residual <= T(newton::kRoughly);
             break;
         }
