@@ -27,8 +27,8 @@ double slide_range(const RobotType& type, const Body& body) {
     return per_unit * std::max(std::fabs(dof.lower), std::fabs(dof.upper));
 }
 
-/// How far the shapes of the base [0] and of each body and those that hang on it [1 + body] are from its frame,
-/// in every pose; `of_none` where there are none.
+/// How far the shapes of the base [0] and of each body and those that hang on it [1 + body] are from its
+/// frame, in every pose; `of_none` where there are none.
 std::vector<double> extents_of(const RobotType& type, double of_none) {
     std::vector<double> extent(type.bodies.size() + 1, of_none);
     for (const BodyShape& s : type.shapes) {

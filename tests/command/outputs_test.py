@@ -157,7 +157,8 @@ class Outputs(unittest.TestCase):
         saved = FOLDER / "interrupted.roboss"
         run = subprocess.Popen([ROBOSS, "run", WORLDS / "pile.sdf", "--speed", "1", "--save", saved],
                                stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
-        time.sleep(1.5)
+        run.stderr.readline()  # its Simulator has joined
+        time.sleep(1)
         run.send_signal(signal.SIGINT)
         output, _ = run.communicate(timeout=60)
         self.assertEqual(run.returncode, 130)
@@ -183,11 +184,13 @@ class Outputs(unittest.TestCase):
 
     def test_a_closed_terminal_ends_a_run_with_its_state(self):
         saved = FOLDER / "hung_up.roboss"
-        run = subprocess.Popen([ROBOSS, "run", str(WORLDS / "pile.sdf"), "--headless", "--quiet", "--speed", "1", "--save", str(saved)],
-                               stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-        time.sleep(1)
+        run = subprocess.Popen([ROBOSS, "run", str(WORLDS / "pile.sdf"), "--headless", "--speed", "1", "--save", str(saved)],
+                               stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
+        run.stderr.readline()  # its Simulator has joined
+        time.sleep(0.5)
         run.send_signal(signal.SIGHUP)
-        self.assertEqual(run.wait(30), 130)
+        run.communicate(timeout=30)
+        self.assertEqual(run.returncode, 130)
         self.assertTrue(saved.exists())
 
     def test_speed_follows_the_clock(self):
