@@ -33,10 +33,11 @@ bool NearSets::join_neighbours(const Robots& r, std::uint32_t sleeper) {
 }
 
 void NearSets::take_spheres(const Model& model) {
-    if (model.hash == model_hash_ && model.types.size() == spheres_.size()) return;
+    if (model.hash == model_hash_ && model.types.data() == types_ && model.types.size() == spheres_.size())
+        return;
     spheres_.clear();
     for (const RobotType& type : model.types) spheres_.push_back(reach_sphere_of(type));
-    model_hash_ = model.hash;
+    model_hash_ = model.hash, types_ = model.types.data();
 }
 
 /// A sleeper's bound is in its state; of a robot that is awake a box that holds it will do.

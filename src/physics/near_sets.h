@@ -51,8 +51,9 @@ class NearSets {
     void join(const Robots& robots);
     void sort(std::size_t count);
 
-    std::vector<ReachSphere> spheres_;   // by type, of the Model with this hash
-    std::uint64_t model_hash_ = 0;       // 0: of none
+    std::vector<ReachSphere> spheres_;  // by type, of the Model with this hash and these types
+    std::uint64_t model_hash_ = 0;
+    const RobotType* types_ = nullptr;
     std::vector<Aabb> bounds_;           // coarse or exact
     std::vector<std::uint32_t> active_;  // awake, or about to wake
     std::vector<std::uint32_t> near_, sleepers_;
