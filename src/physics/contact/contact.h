@@ -44,7 +44,7 @@ struct ShapePair {
 /// Two shapes that may come together within the tick, but not by the motion known before solving: see
 /// swept_contact.h. Compared as pairs of shapes.
 struct NearMiss : ShapePair {
-    Vec3 normal;  // from B to A at the beginning of the tick; zero if it is not known
+    Vec3 normal;  // from B to A, a hint: of the beginning of the tick or of an impact; zero: not known
 };
 
 /// Those of which the robot is the first, of sorted ones.

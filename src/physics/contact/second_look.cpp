@@ -45,7 +45,7 @@ bool is_struck(const RobotWork& robot, std::span<const double> displacement, dou
         change += std::fabs(displacement[i] - robot.state->v[i]) *
                   (is_linear ? 1.0 : std::max(1.0, robot.type->reach));
     }
-    return robot.pushed && change * dt > kBaseMargin;
+    return change * dt > kBaseMargin;
 }
 
 double speed_of(const Course& c) {
@@ -273,8 +273,8 @@ bool SecondLook::start(const SolvedIsland& island) {
             island.displacement.subspan(static_cast<std::size_t>(island.offsets[m]), nv);
         is_moved_[m] = 0;
         turns_[m] = may_turn_far(type, displacement, island.model.dt_s);
-        struck_[m] =
-            island.members.size() > 1 && is_struck(island.robots[m], displacement, island.model.dt_s);
+        struck_[m] = island.members.size() > 1 && is_pushed(island, static_cast<int>(m)) &&
+                     is_struck(island.robots[m], displacement, island.model.dt_s);
         any |= turns_[m] != 0 || struck_[m] != 0 || !misses_of(m, island.near_misses).empty();
     }
     return any;
