@@ -2,7 +2,10 @@
 // floating-point environment of a step, and a run of it allocates nothing.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
+#include <span>
+#include <utility>
 
 namespace roboss {
 
@@ -30,6 +33,19 @@ class Team {
         run_task(count, {&call<Work>, &work}, false);
     }
     std::size_t first_of(std::size_t count, std::size_t worker) const { return count * worker / size(); }
+    /// Sorts items for run(): by ascending key(item), of which no two are equal, and within each worker's
+    /// share the largest weight(item) first.
+    template <class Item, class Weight, class Key>
+    void sort_shares(std::span<Item> items, const Weight& weight, const Key& key) const {
+        std::ranges::sort(items, {}, key);
+        for (std::size_t worker = 0; worker < size(); ++worker) {
+            const std::size_t begin = first_of(items.size(), worker),
+                              end = first_of(items.size(), worker + 1);
+            std::ranges::sort(items.subspan(begin, end - begin), [&](const Item& a, const Item& b) {
+                return std::pair(weight(b), key(a)) < std::pair(weight(a), key(b));
+            });
+        }
+    }
     /// work(first, last) for blocks of the items 0 .. count-1: side by side if there are at least two, else
     /// all at once.
     template <class Work>

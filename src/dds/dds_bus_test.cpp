@@ -8,27 +8,14 @@
 #include <algorithm>
 #include <utility>
 
+#include <support/loopback_bus.h>
+
 namespace roboss {
 namespace {
 
+using test::bus_of, test::loopback;
+
 const Address kOne{Role::kSimulator, 1}, kTwo{Role::kSimulator, 2};
-
-/// Loopback without multicast, on a name of this process, so that tests at the same time do not meet.
-DdsOptions loopback(const std::string& name) {
-    DdsOptions options;
-    options.simulation = "test-" + std::to_string(getpid()) + "-" + name;
-    options.domain = 90;
-    options.multicast = false;
-    options.peers = {"127.0.0.1"};
-    options.liveliness_ms = 1000;
-    return options;
-}
-
-std::unique_ptr<DdsBus> bus_of(const DdsOptions& options) {
-    auto bus = DdsBus::create(options);
-    EXPECT_TRUE(bus.ok()) << (bus.ok() ? "" : bus.error().text());
-    return bus.ok() ? std::move(bus).value() : nullptr;
-}
 
 /// Drains `self` until `count` messages have come, for at most ten seconds.
 std::vector<Envelope> receive(DdsBus& bus, const Address& self, std::size_t count, DdsBus* sender = nullptr) {

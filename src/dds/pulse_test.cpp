@@ -2,34 +2,17 @@
 #include "dds/pulse.h"
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <chrono>
 #include <thread>
 #include <vector>
 
-#include "dds/dds_bus.h"
+#include <support/loopback_bus.h>
 
 namespace roboss {
 namespace {
 
 const Address kMember{Role::kSimulator, 1};
-
-DdsOptions options_of(const std::string& name) {
-    DdsOptions options;
-    options.simulation = "test-" + std::to_string(getpid()) + "-pulse-" + name;
-    options.domain = 90;
-    options.multicast = false;
-    options.peers = {"127.0.0.1"};
-    options.liveliness_ms = 1000;
-    return options;
-}
-
-std::unique_ptr<DdsBus> open(const DdsOptions& options) {
-    auto bus = DdsBus::create(options);
-    EXPECT_TRUE(bus.ok());
-    return std::move(bus).value();
-}
 
 /// Until a heartbeat comes, for at most ten seconds.
 bool hears(DdsBus& controller) {
@@ -57,10 +40,11 @@ bool falls_silent(DdsBus& controller) {
 }
 
 TEST(Pulse, AMemberIsHeardWhileItsThreadIsBusyUntilItLeavesAndAfterItJoinsTheNetworkAgain) {
-    const auto controller = open(options_of("busy")), member = open(options_of("busy"));
+    const auto controller = test::bus_of(test::loopback("busy")),
+               member = test::bus_of(test::loopback("busy"));
     std::vector<Envelope> inbox;
     controller->drain(kControllerAddress, inbox);
-    // From here on nobody calls the member's Bus but where the test says so.
+    // The thread that owns the member's Bus calls it no more until reconnect().
     member->keep_alive(kMember, kControllerAddress, Heartbeat{SimulatorId(7u)});
     EXPECT_TRUE(hears(*controller));
     EXPECT_TRUE(hears(*controller));

@@ -40,11 +40,8 @@ bool holds_ball(const ConvexSum& sum, const Separation& best, double clearance) 
 
 bool is_best_of_all(const Posed& a, const Posed& b, const ConvexSum& sum, const Separation& best) {
     constexpr double kAcross = 1e-7;  // sine
-    const auto ball = [](const Posed& s) {
-        return s.shape.kind == ShapeKind::kCapsule ? s.shape.radius : 0.0;
-    };
     const LinePair lines{support_line(a, -best.n, kAcross), support_line(b, best.n, kAcross), best.n,
-                         best.s - ball(a) - ball(b), 1e-8 * sum.scale()};
+                         best.s - ball_of(a.shape) - ball_of(b.shape), 1e-8 * sum.scale()};
     const TouchingLines found = find_touching(lines);
     if (found.count == 0) return false;
     if (best.s >= 0.0) return true;

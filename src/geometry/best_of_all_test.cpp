@@ -5,33 +5,30 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <random>
 #include <utility>
 
+#include <support/random.h>
+
 #include "geometry/closest_direction.h"
-#include "math/quat.h"
 
 namespace roboss::narrow {
 namespace {
 
 class BestOfAll : public testing::Test {
   protected:
-    double in(double low, double high) {
-        return low + (high - low) * (static_cast<double>(engine_() >> 11) * 0x1p-53);
-    }
     /// A box, cylinder or capsule.
     Shape shape() {
         constexpr ShapeKind kKinds[] = {ShapeKind::kBox, ShapeKind::kCylinder, ShapeKind::kCapsule};
         Shape shape;
-        shape.kind = kKinds[engine_() % 3];
+        shape.kind = kKinds[random_.integer(0, 2)];
         shape.half = {in(0.02, 1), in(0.02, 1), in(0.02, 1)};
         shape.radius = in(0.02, 1), shape.half_length = in(0.02, 1);
         return shape;
     }
-    Vec3 direction() { return normalized(Vec3{in(-1, 1), in(-1, 1), in(-1, 1)}); }
+    double in(double low, double high) { return random_.uniform(low, high); }
     Transform pose() {
         Transform X;
-        X.R = to_matrix(axis_angle(direction(), in(-kPi, kPi)));
+        X.R = to_matrix(random_.rotation());
         return X;
     }
     /// Moves the first shape along a random ray to where the distance is `distance`, so that all features
@@ -39,7 +36,7 @@ class BestOfAll : public testing::Test {
     void place(const Shape& a, const Shape& b, double distance, Transform& X_WA, const Transform& X_WB) {
         X_WA.p = X_WB.p;
         const ConvexSum sum({a, X_WA}, {b, X_WB});
-        const Vec3 ray = direction();
+        const Vec3 ray = normalized(random_.vector(1));
         double low = 0, high = 10;
         for (int k = 0; k < 40; ++k) {
             const double middle = 0.5 * (low + high);
@@ -50,7 +47,7 @@ class BestOfAll : public testing::Test {
     }
 
   private:
-    std::mt19937_64 engine_{7};
+    test::Random random_{7};
 };
 
 TEST_F(BestOfAll, NoSearchFindsABetterDirectionThanAProvenOne) {

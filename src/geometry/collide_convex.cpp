@@ -15,10 +15,6 @@ namespace {
 constexpr double kAlmostParallel = 0.9998;  // cosine of the angle (1.1 degrees) below which a face takes over
 constexpr double kAlmostFlat = 0.02;        // the same for lines, sine
 
-double ball(const Posed& s) {
-    return s.shape.kind == ShapeKind::kCapsule ? s.shape.radius : 0.0;
-}
-
 /// The face of a box or cylinder whose normal is most along d.
 struct FaceChoice {
     bool of_first = true;
@@ -107,7 +103,7 @@ Separation best_of_all(const Posed& a, const Posed& b, const ConvexSum& sum, con
 
 void write_features(const Posed& a, const Posed& b, const ConvexSum& sum, const Separation& best,
                     double margin, Manifold& out) {
-    const double gap = best.s - ball(a) - ball(b);
+    const double gap = best.s - ball_of(a.shape) - ball_of(b.shape);
     const double gap_max = gap + 1e-3 * std::fabs(gap) + 1e-6 * sum.scale() + rim_slack(a, b, best.n);
     const FaceChoice choice = face_along(a, b, best.n);
     if (choice.cosine > kAlmostParallel) {
@@ -124,7 +120,7 @@ void write_features(const Posed& a, const Posed& b, const ConvexSum& sum, const 
     // place is that of the closest points once the first shape has been lifted off.
     const ConvexSum lifted = sum.moved(best.n * (sum.scale() - best.s));
     const ClosestApart apart = closest_apart(lifted, {best.n, sum.scale()}, 1e300);
-    const Vec3 on_a = a.X.p - apart.first - best.n * ball(a);
+    const Vec3 on_a = a.X.p - apart.first - best.n * ball_of(a.shape);
     out.count = 0;
     out.n_W = best.n;
     out.add(on_a - best.n * (0.5 * gap), gap,
@@ -135,7 +131,7 @@ void write_features(const Posed& a, const Posed& b, const ConvexSum& sum, const 
 
 void convex_convex(const Posed& a, const Posed& b, double margin, Manifold& out) {
     const ConvexSum sum(a, b);
-    const double balls = ball(a) + ball(b), enough = margin + balls;
+    const double balls = ball_of(a.shape) + ball_of(b.shape), enough = margin + balls;
     Separation best = sum.best_natural(enough);
     if (best.s > enough) return;
     const FaceChoice choice = face_along(a, b, best.n);

@@ -14,6 +14,11 @@ struct Posed {
     Vec3 axis(std::size_t i) const { return X.R.col(i); }
 };
 
+/// The radius of the ball that rounds a sphere or capsule; 0 for other shapes.
+inline double ball_of(const Shape& shape) {
+    return shape.kind == ShapeKind::kSphere || shape.kind == ShapeKind::kCapsule ? shape.radius : 0.0;
+}
+
 using PairFunction = void (*)(const Posed& a, const Posed& b, double margin, Manifold& out);
 
 void plane_sphere(const Posed& plane, const Posed& sphere, double margin, Manifold& out);

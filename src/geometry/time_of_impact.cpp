@@ -45,10 +45,6 @@ double most_acceleration(const Course& c, double dt) {
     return c.bend(dt) + (speed * speed + rate) * bounding_radius(*c.shape);
 }
 
-double ball_of(const Shape& s) {
-    return s.kind == ShapeKind::kSphere || s.kind == ShapeKind::kCapsule ? s.radius : 0.0;
-}
-
 /// A shape on its course.
 struct Placed {
     Transform X;

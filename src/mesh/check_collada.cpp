@@ -57,6 +57,10 @@ bool is_index(std::string_view word) {
                                [](unsigned char c) { return std::isdigit(c) != 0 || c == '-' || c == '+'; });
 }
 
+std::string remedy_at(int line, const std::string& path) {
+    return "Correct line " + std::to_string(line) + " of " + path + ", or export the mesh anew.";
+}
+
 class ColladaCheck {
   public:
     explicit ColladaCheck(const xml::SourceFile& file) : file_(file) {}
@@ -72,9 +76,9 @@ class ColladaCheck {
   private:
     void refuse(Node node, const std::string& what) {
         if (wrong_) return;
-        const std::string line = std::to_string(file_.line(node));
-        wrong_ = Error{"is no mesh that can be read: line " + line + ": " + what,
-                       "Correct line " + line + " of " + file_.path() + ", or export the mesh anew."};
+        const int line = file_.line(node);
+        wrong_ = Error{"is no mesh that can be read: line " + std::to_string(line) + ": " + what,
+                       remedy_at(line, file_.path())};
     }
 
     void collect(Node node) {
@@ -226,9 +230,7 @@ Result<> check_collada(const std::string& path, const std::string& text) {
     const auto file = xml::SourceFile::from_text(path, text, {}, diagnostics);
     if (!file) {
         const Diagnostic& first = diagnostics.items().front();
-        return Error{"is no mesh that can be read: " + first.message,
-                     "Correct line " + std::to_string(first.where.line) + " of " + path +
-                         ", or export the mesh anew."};
+        return Error{"is no mesh that can be read: " + first.message, remedy_at(first.where.line, path)};
     }
     return ColladaCheck(*file).run();
 }

@@ -76,6 +76,9 @@ void check_joints_read(const RobotType& type, const std::string& robot, Diagnost
 
 /// Radius of the sphere about the base origin that holds every shape in every pose.
 double reach_of(const RobotType& type);
+/// RobotType::reach_sphere, with slides within their limits: of a robot on a fixed base the sphere about its
+/// first joint, if that is smaller than the one about its base (RobotType::reach).
+ReachSphere reach_sphere_of(const RobotType& type);
 
 /// RobotType::self_pairs: shapes of bodies that no joint joins, without the pairs that `spec` excludes
 /// (nullptr: none). Needs RobotType::links.

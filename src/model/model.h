@@ -25,6 +25,7 @@
 #include "math/pose.h"
 #include "model/dof_paths.h"
 #include "model/joint_elimination.h"
+#include "model/reach_sphere.h"
 #include "model/self_blocks.h"
 #include "world/world.h"
 
@@ -275,7 +276,8 @@ struct RobotType {
     int nq = 7,                                   ///< size of RobotState::q
         nv = 0;                                   ///< size of RobotState::v
     double reach = 0;  ///< m, radius of the sphere about the base origin that holds every shape in every pose
-    double mass = 0;   ///< kg, of all bodies
+    ReachSphere reach_sphere;  ///< holds them, too, and is no larger; computed by seal()
+    double mass = 0;           ///< kg, of all bodies
     /// m, base frame: holds the scenery whose surfaces its controllers move; empty: there is none.
     Aabb scenery;
     std::uint64_t hash = 0;  ///< of the content

@@ -81,6 +81,7 @@ void seal(Model& model) {
             if (type.sensors[i].spec.as<RadioSpec>() != nullptr) type.radios.push_back(i);
         type.self_blocks = SelfBlocks(type.shapes, type.self_pairs);
         type.elimination = joint_elimination(type);
+        type.reach_sphere = reach_sphere_of(type);
         type.hash = type_hash(type);
     }
     build_bvh(model);

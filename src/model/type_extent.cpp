@@ -6,7 +6,6 @@
 
 #include "model/compile_type.h"
 #include "model/joint_motion.h"
-#include "model/type_extent.h"
 
 namespace roboss {
 namespace {

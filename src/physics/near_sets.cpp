@@ -32,26 +32,16 @@ bool NearSets::join_neighbours(const Robots& r, std::uint32_t sleeper) {
     return wakes;
 }
 
-void NearSets::take_spheres(const Model& model) {
-    if (model.hash == model_hash_ && model.types.data() == types_ && model.types.size() == spheres_.size())
-        return;
-    spheres_.clear();
-    for (const RobotType& type : model.types) spheres_.push_back(reach_sphere_of(type));
-    model_hash_ = model.hash, types_ = model.types.data();
-}
-
 /// A sleeper's bound is in its state; of a robot that is awake a box that holds it will do.
 void NearSets::take_bounds(const Robots& r) {
     const std::size_t count = r.ids.size();
-    take_spheres(r.model);
     bounds_.resize(count);
     for (std::uint32_t i = 0; i < count; ++i) {
         RobotState& state = *r.states[i];
         if (state.rest.asleep) {
             bounds_[i] = state.rest.bound;
         } else if (state.bonds.empty()) {
-            const std::size_t type = r.model.robots[r.ids[i].index()].type.index();
-            bounds_[i] = coarse_bound(r.model.types[type], spheres_[type], state, r.model.dt_s);
+            bounds_[i] = coarse_bound(r.model.type_of(r.ids[i]), state, r.model.dt_s);
         } else {
             place_robot(r.model, r.ids[i], state, holder_);
             bounds_[i] = holder_.box;

@@ -9,7 +9,6 @@
 #include "math/aabb.h"
 #include "model/model.h"
 #include "model/robot_state.h"
-#include "model/type_extent.h"
 #include "physics/contact/meetings.h"
 #include "physics/dynamics/robot_work.h"
 #include "physics/lanes/lane_stepper.h"
@@ -46,14 +45,10 @@ class NearSets {
   private:
     bool join_neighbours(const Robots& robots, std::uint32_t sleeper);
     void take_bounds(const Robots& robots);
-    void take_spheres(const Model& model);
     bool sharpen_bounds(const Robots& robots, const LaneSteppers& lanes);
     void join(const Robots& robots);
     void sort(std::size_t count);
 
-    std::vector<ReachSphere> spheres_;  // by type, of the Model with this hash and these types
-    std::uint64_t model_hash_ = 0;
-    const RobotType* types_ = nullptr;
     std::vector<Aabb> bounds_;           // coarse or exact
     std::vector<std::uint32_t> active_;  // awake, or about to wake
     std::vector<std::uint32_t> near_, sleepers_;

@@ -153,15 +153,9 @@ std::size_t RobotGroup::count_large() {
 void RobotGroup::sort_shares(std::size_t first) {
     using Members = std::span<const std::uint32_t>;
     const std::span<Members> waiting = std::span(s_.waiting).subspan(first);
-    const auto front = [](const Members& members) { return members.front(); };
-    std::ranges::sort(waiting, {}, front);
-    for (std::size_t worker = 0; worker < team().size(); ++worker) {
-        const std::size_t begin = team().first_of(waiting.size(), worker),
-                          end = team().first_of(waiting.size(), worker + 1);
-        std::ranges::sort(waiting.subspan(begin, end - begin), [](const Members& a, const Members& b) {
-            return std::pair(b.size(), a.front()) < std::pair(a.size(), b.front());
-        });
-    }
+    team().sort_shares(
+        waiting, [](const Members& members) { return members.size(); },
+        [](const Members& members) { return members.front(); });
 }
 
 /// A robot that touches nobody may wait until there are enough of its type. In floats it must: whether it is

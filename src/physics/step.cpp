@@ -5,7 +5,6 @@
 #include <cmath>
 #include <string>
 #include <tuple>
-#include <utility>
 
 #include "core/check.h"
 #include "core/float_env.h"
@@ -349,16 +348,10 @@ std::size_t sort_units(std::size_t all, Impl& s) {
                unit.weight * team.size() > all;
     };
     const auto first_other = std::partition(s.units.begin(), s.units.end(), is_large);
-    const auto key = [](const Unit& unit) { return std::tuple(unit.kind, unit.first); };
-    std::sort(first_other, s.units.end(), [&](const Unit& a, const Unit& b) { return key(a) < key(b); });
     const std::span<Unit> others(first_other, s.units.end());
-    for (std::size_t worker = 0; worker < team.size(); ++worker) {
-        const std::size_t begin = team.first_of(others.size(), worker),
-                          end = team.first_of(others.size(), worker + 1);
-        std::ranges::sort(others.subspan(begin, end - begin), [&](const Unit& a, const Unit& b) {
-            return std::pair(b.weight, key(a)) < std::pair(a.weight, key(b));
-        });
-    }
+    team.sort_shares(
+        others, [](const Unit& unit) { return unit.weight; },
+        [](const Unit& unit) { return std::tuple(unit.kind, unit.first); });
     return s.units.size() - others.size();
 }
 

@@ -216,4 +216,10 @@ inline ModelSpec mixed_tree() {
     return m;
 }
 
+/// A ball on every link, so that the model touches the ground.
+inline ModelSpec with_balls(ModelSpec model, double radius) {
+    for (LinkSpec& l : model.links) l.collisions.push_back(sphere_shape(radius, surface(0.8), {l.p_LC, {}}));
+    return model;
+}
+
 }  // namespace roboss::test

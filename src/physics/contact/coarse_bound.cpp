@@ -40,7 +40,8 @@ JointShare joint_share(const RobotType& type, const RobotState& state) {
 
 }  // namespace
 
-Aabb coarse_bound(const RobotType& type, const ReachSphere& sphere, const RobotState& state, double dt) {
+Aabb coarse_bound(const RobotType& type, const RobotState& state, double dt) {
+    const ReachSphere& sphere = type.reach_sphere;
     const JointShare joints = joint_share(type, state);
     const double reach = sphere.radius + joints.slid;
     // A point within reach of the centre, and a shape's own turning about its centre (place_shapes). Where

@@ -6,11 +6,10 @@
 #include "math/aabb.h"
 #include "model/model.h"
 #include "model/robot_state.h"
-#include "model/type_extent.h"
 
 namespace roboss {
 
-/// Not finite where the state is not, or the reach has no limit. `sphere`: reach_sphere_of(type).
-Aabb coarse_bound(const RobotType& type, const ReachSphere& sphere, const RobotState& state, double dt);
+/// Not finite where the state is not, or the reach has no limit.
+Aabb coarse_bound(const RobotType& type, const RobotState& state, double dt);
 
 }  // namespace roboss

@@ -22,12 +22,6 @@ ModelSpec arm_beside_its_base() {
     return model;
 }
 
-ModelSpec with_shapes(ModelSpec model) {
-    for (LinkSpec& link : model.links)
-        link.collisions.push_back(sphere_shape(0.1, surface(0.8), {link.p_LC, {}}));
-    return model;
-}
-
 TEST(CoarseBound, HoldsTheExactBoundOfEveryPoseAndMotion) {
     Random random(5);
     const auto fill = [&](std::vector<double>& row, double size) {
@@ -36,17 +30,16 @@ TEST(CoarseBound, HoldsTheExactBoundOfEveryPoseAndMotion) {
     int tighter = 0;
     for (const ModelSpec& spec : {arm(), arm_beside_its_base(), spider(), mixed_tree()}) {
         World world = empty_world(1e-3);
-        place(world, with_shapes(spec), spec.name, {{0.4, -0.3, 0.2}, from_rpy(0.3, -0.2, 0.8)});
+        place(world, with_balls(spec, 0.1), spec.name, {{0.4, -0.3, 0.2}, from_rpy(0.3, -0.2, 0.8)});
         Simulation sim(world);
         const RobotType& type = sim.model->type_of(sim.ids[0]);
-        const ReachSphere sphere = reach_sphere_of(type);
-        tighter += sphere.radius < type.reach;
+        tighter += type.reach_sphere.radius < type.reach;
         for (int i = 0; i < 200; ++i) {
             RobotState state = initial_state(*sim.model, sim.ids[0]);
             fill(state.v, 1.5);
             advance_coordinates<double>(type, state.v, 1.0, state.q);
             fill(state.v, 5);
-            const Aabb coarse = coarse_bound(type, sphere, state, sim.model->dt_s);
+            const Aabb coarse = coarse_bound(type, state, sim.model->dt_s);
             Aabb both = coarse;
             both.include(interaction_bound(*sim.model, sim.ids[0], state));
             EXPECT_EQ(both, coarse) << spec.name << ", pose " << i;

@@ -2,6 +2,7 @@
 #include "physics/contact/island_parts.h"
 
 #include <algorithm>
+#include <functional>
 #include <string>
 #include <utility>
 
@@ -111,14 +112,7 @@ void IslandParts::list_changed(const Problem& p, const Team& team) {
     const auto first_other = std::partition(to_solve_.begin(), to_solve_.end(), is_large);
     const std::span<std::uint32_t> others(first_other, to_solve_.end());
     together_ = to_solve_.size() - others.size();
-    std::ranges::sort(others);
-    for (std::size_t worker = 0; worker < team.size(); ++worker) {
-        const std::size_t begin = team.first_of(others.size(), worker),
-                          end = team.first_of(others.size(), worker + 1);
-        std::ranges::sort(others.subspan(begin, end - begin), [&](std::uint32_t a, std::uint32_t b) {
-            return std::pair(size(b), a) < std::pair(size(a), b);
-        });
-    }
+    team.sort_shares(others, size, std::identity());
 }
 
 /// Each part has rows and velocities of its own, so they may be solved side by side.

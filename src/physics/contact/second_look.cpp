@@ -263,8 +263,8 @@ void SecondLook::find_turned(const SolvedIsland& island, std::span<const Contact
 /// False if there is nothing to look at.
 bool SecondLook::start(const SolvedIsland& island) {
     const std::size_t count = island.robots.size();
-    if (moved_.size() < count) moved_.resize(count), is_moved_.resize(count), turns_.resize(count);
-    if (struck_.size() < count) struck_.resize(count);
+    if (moved_.size() < count)
+        moved_.resize(count), is_moved_.resize(count), turns_.resize(count), struck_.resize(count);
     bool any = false;
     for (const std::uint32_t m : island.members) {
         const RobotType& type = *island.robots[m].type;

@@ -79,12 +79,6 @@ World scattered(const ModelSpec& model, int count, double height, double dt_s = 
     return world;
 }
 
-/// Balls on every link, so that the model touches the ground.
-ModelSpec with_balls(ModelSpec model, double radius) {
-    for (LinkSpec& l : model.links) l.collisions.push_back(sphere_shape(radius, surface(0.8), {l.p_LC, {}}));
-    return model;
-}
-
 TEST(Lanes, CarsDriveTurnBrakeAndLeanOnTheirMotorsAlike) {
     const Drive drive = [](Simulation& sim) {
         if (sim.tick % 40 != 0) return;

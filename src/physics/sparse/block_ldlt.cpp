@@ -265,10 +265,11 @@ void BlockLdlt::solve(const Source& source, std::span<double> x, double implied,
     const auto each_of = [&](std::size_t root, const auto& work) {
         for (std::size_t f = first_of_subtree_[root]; f <= root; ++f) work(f);
     };
-    team.run_in_order(subtrees_.size(), [&](std::size_t item, std::size_t worker) {  // the dearest first
-        each_of(subtrees_[item],
-                [&](std::size_t f) { factor_front(f, source, x, implied, buffers_[worker], {}); });
-    });
+    team.run_in_order(
+        subtrees_.size(), [&](std::size_t item, std::size_t worker) {  // the most expensive first
+            each_of(subtrees_[item],
+                    [&](std::size_t f) { factor_front(f, source, x, implied, buffers_[worker], {}); });
+        });
     for (const std::size_t f : top_) factor_front(f, source, x, implied, buffers_[0], team);
     for (std::size_t i = top_.size(); i-- > 0;) solve_back(top_[i], x, buffers_[0]);
     team.run_in_order(subtrees_.size(), [&](std::size_t item, std::size_t worker) {

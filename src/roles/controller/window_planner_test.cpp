@@ -116,7 +116,7 @@ TEST_F(Windows, RepeatTheIslandsThatTouchedAndNoOthers) {
     EXPECT_LT(planner.length(), before) << "shorter windows need fewer repeats";
 }
 
-/// The length after some windows of one pile that one Simulator of so many threads steps.
+/// The length of a window after three windows of one pile, stepped by one Simulator with `threads` threads.
 Tick length_for_a_pile(std::size_t robots, std::uint32_t threads) {
     World world = empty_world(1e-3);
     for (std::size_t i = 0; i < robots; ++i)
