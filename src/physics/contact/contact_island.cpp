@@ -73,10 +73,10 @@ bool choose_drifting(const Model& model, std::span<const RobotWork> robots, Isla
     return any;
 }
 
-/// Solves for the displacement of the tick, from what stands there.
-void solve_displacement(const Model& model, IslandScratch& s, StepReport& report) {
+/// Solves for the displacement of the tick, from what stands there. `solved`: see IslandParts::solve.
+void solve_displacement(const Model& model, IslandScratch& s, std::size_t solved, StepReport& report) {
     const IslandSolver::Problem problem{model.accuracy, s.robots, s.offsets, s.rows, true};
-    report.iterations += s.solver.solve(problem, s.displacement, s.team).iterations;
+    report.iterations += s.solver.solve(problem, s.displacement, s.team, solved).iterations;
 }
 
 /// N m s: what the rows of swept contacts between robots lack of conserving angular momentum. They push both
@@ -264,6 +264,7 @@ void hold_displacement(IslandScratch& s, bool split) {
         row.normal.position_target = std::min(row.normal.position_target, given);
         if (!split) row.slip.bound = row.slip.coefficient * row.normal.impulse;
     }
+    for_each_bounded(s.rows, [](BoundedRow& row) { aim_at_displacement(row); });
 }
 
 /// Stops the displacement at the first hit. Where robots hit only each other, their centre of mass goes on:
@@ -330,8 +331,9 @@ void stop_late_hits(const Model& model, std::span<RobotWork> robots, IslandScrat
             robots[static_cast<std::size_t>(hit.robot_a)].touches_robot = true;
             robots[static_cast<std::size_t>(hit.robot_b)].touches_robot = true;
         }
+        const std::size_t solved = s.rows.contacts.size();
         s.look.add_rows(island, s.rows, s.surfaces);
-        solve_displacement(model, s, report);
+        solve_displacement(model, s, solved, report);
     }
     s.contacts.resize(found);
     for (Contact& hit : s.look.hits()) s.contacts.push_back(&hit);
@@ -409,7 +411,7 @@ void ContactIsland::solve_displacements() {
     if (needs_displacement_) {
         s_.displacement = s_.v;
         for (ContactRow& row : s_.rows.contacts) turn_to_displacement(row);
-        solve_displacement(model_, s_, report_);
+        solve_displacement(model_, s_, s_.rows.contacts.size(), report_);
         limit_correction(robots_, s_, members_);
     } else {
         take_mean_displacement(robots_, s_, members_, drifts_, model_.dt_s);

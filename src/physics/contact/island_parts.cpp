@@ -40,7 +40,7 @@ void IslandParts::ByPart::sort(std::size_t parts, std::span<const std::uint32_t>
     first[0] = 0;
 }
 
-SolveReport IslandParts::solve(Problem p, std::vector<double>& v, const Team& team) {
+SolveReport IslandParts::solve(Problem p, std::vector<double>& v, const Team& team, std::size_t solved) {
     const std::size_t count = p.robots.size();
     largest_part_ = static_cast<int>(count);
     if (!has_parts(p)) {
@@ -50,7 +50,8 @@ SolveReport IslandParts::solve(Problem p, std::vector<double>& v, const Team& te
     prepare(p, v.size());
     join_by_pushing(p, v);
     SolveReport report;
-    changed_.assign(count, 1);
+    changed_.assign(count, solved == 0 ? 1 : 0);
+    if (solved > 0) mark_open(p, solved);
     largest_part_ = 0;
     for (int round = 0;; ++round) {
         sort_by_parts(p);
@@ -203,6 +204,20 @@ void IslandParts::join_by_pushing(const Problem& p, const std::vector<double>& v
         if (ends.a == ends.b) continue;
         const ContactRow& row = p.rows.contacts[c];
         if (row.normal.impulse > 0 || would_push(p, row, v)) joined_.unite(ends.a, ends.b);
+    }
+}
+
+/// Marks the robots of rows that v does not solve (see solve()).
+void IslandParts::mark_open(const Problem& p, std::size_t solved) {
+    const auto mark = [&](int dof) { changed_[robot_of_[static_cast<std::size_t>(dof)]] = 1; };
+    for (const JointRow& row : p.rows.joints)
+        if (displaces_otherwise(row)) mark(row.dof);
+    for (const CouplingRow& row : p.rows.couplings)
+        if (row.first < row.last && displaces_otherwise(row)) mark(p.rows.coupling_columns[row.first].dof);
+    for (std::size_t c = 0; c < ends_.size(); ++c) {
+        const ContactRow& row = p.rows.contacts[c];
+        if (row.first == row.last || (c < solved && !displaces_otherwise(row.normal))) continue;
+        if (joined_.find(ends_[c].a) == joined_.find(ends_[c].b)) changed_[ends_[c].a] = 1;
     }
 }
 

@@ -26,7 +26,10 @@ class IslandParts {
 
     /// As IslandSolver::solve, for the whole contact island. `impulse` of the normals of contacts: what they
     /// carried last. Parts are shared by the threads of the team.
-    SolveReport solve(Problem problem, std::vector<double>& v, const Team& team = {});
+    ///
+    /// `solved`: v already solves all rows for the velocity but for the contacts from this one on (0: none).
+    /// Then parts stay as they are where the displacement asks for nothing else.
+    SolveReport solve(Problem problem, std::vector<double>& v, const Team& team = {}, std::size_t solved = 0);
     /// Robots of the largest part of the last call.
     int largest_part() const { return largest_part_; }
     /// What friction is off by in the parts of the last call, if that solved for velocities.
@@ -63,6 +66,7 @@ class IslandParts {
     void join_by_pushing(const Problem& p, const std::vector<double>& v);
     bool join_violated(const Problem& p, const std::vector<double>& v);
     void join_all();
+    void mark_open(const Problem& p, std::size_t solved);
     void sort_by_parts(const Problem& p);
     static bool has_parts(const Problem& p);
     void list_changed(const Problem& p, const Team& team);
@@ -84,7 +88,7 @@ class IslandParts {
     std::vector<Ends> ends_;                  // by contact
     std::vector<std::uint32_t> part_of_;      // by robot
     std::vector<std::uint32_t> joint_first_;  // by robot, and the end: of its joint rows
-    std::vector<char> changed_;               // by robot: a contact joined it since it was solved
+    std::vector<char> changed_;  // by robot: its rows are not solved, or a contact joined it since
     ByPart robots_, couplings_, contacts_, angulars_;
     std::vector<std::uint32_t> keys_;
     std::vector<std::uint32_t> to_solve_;  // parts

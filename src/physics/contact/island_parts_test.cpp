@@ -132,5 +132,71 @@ TEST(IslandParts, NoContactThatIsLeftOutWouldPush) {
     }
 }
 
+/// A heap solved for its velocities, then made ready for its displacement; every tenth contact with another
+/// target for that, from the one on that the seed gives.
+struct Displaced : Heap {
+    explicit Displaced(unsigned seed) : Heap(30, seed) {
+        parts.solve(problem(), v);
+        for (std::size_t c = seed % 10; c < rows.contacts.size(); c += 10)
+            rows.contacts[c].normal.position_target += 0.01;
+        for (ContactRow& row : rows.contacts) row.slip.bound = row.slip.coefficient * row.normal.impulse;
+    }
+    void displace(std::size_t solved) {
+        IslandSolver::Problem p = problem();
+        p.position = true;
+        parts.solve(p, v, {}, solved);
+    }
+    IslandParts parts;
+};
+
+TEST(IslandParts, DisplacementsThatAskForNothingElseThanTheVelocitiesAreThese) {
+    Heap heap(30, 1);
+    IslandParts parts;
+    parts.solve(heap.problem(), heap.v);
+    const std::vector<double> velocities = heap.v;
+    IslandSolver::Problem p = heap.problem();
+    p.position = true;
+    const SolveReport report = parts.solve(p, heap.v, {}, heap.rows.contacts.size());
+    EXPECT_EQ(heap.v, velocities);
+    EXPECT_EQ(report.iterations, 0);
+}
+
+TEST(IslandParts, DisplacementsAreSolvedWhereverTheyAskForSomethingElse) {
+    std::size_t kept = 0, moved = 0;
+    for (unsigned seed = 200; seed < 240; ++seed) {
+        Displaced all(seed), some(seed);
+        const std::vector<double> velocities = some.v;
+        all.displace(0), some.displace(some.rows.contacts.size());
+        for (std::size_t i = 0; i < all.v.size(); ++i) {
+            EXPECT_NEAR(all.v[i], some.v[i], 1e-6) << seed << ' ' << i;
+            (some.v[i] == velocities[i] ? kept : moved) += 1;
+        }
+    }
+    EXPECT_GE(kept, 1000u);
+    EXPECT_GE(moved, 1000u);
+}
+
+TEST(IslandParts, NewContactsAreSolvedAndWhatTheyPush) {
+    for (unsigned seed = 300; seed < 340; ++seed) {
+        Heap all(30, seed), some(30, seed);
+        const auto displace = [&](Heap& heap, bool knows) {
+            IslandParts parts;
+            std::vector<ContactRow>& contacts = heap.rows.contacts;
+            const ContactRow last = contacts.back();
+            contacts.pop_back();
+            parts.solve(heap.problem(), heap.v);
+            const std::size_t solved = contacts.size();
+            contacts.push_back(last);
+            contacts.back().normal.target = contacts.back().normal.position_target = 0.05;
+            IslandSolver::Problem p = heap.problem();
+            p.position = true;
+            parts.solve(p, heap.v, {}, knows ? solved : 0);
+        };
+        displace(all, false), displace(some, true);
+        for (std::size_t i = 0; i < all.v.size(); ++i)
+            EXPECT_NEAR(all.v[i], some.v[i], 1e-6) << seed << ' ' << i;
+    }
+}
+
 }  // namespace
 }  // namespace roboss

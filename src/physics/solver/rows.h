@@ -62,6 +62,11 @@ void aim_at_displacement(BoundedRowT<T>& row) {
     row.compliance = larger(row.compliance, row.position_compliance);
 }
 
+/// True if the displacement of the tick asks the row for something else than the velocity.
+inline bool displaces_otherwise(const BoundedRow& row) {
+    return row.position_target != row.target || row.position_compliance > row.compliance;
+}
+
 /// Friction in a plane: impulse = (target - u) / compliance, cut to the disc of radius `bound` = coefficient
 /// * normal impulse (isotropic Coulomb).
 template <class T>
