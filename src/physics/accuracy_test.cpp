@@ -225,6 +225,18 @@ TEST(AccuracySettings, PilesKeepMomentumAtEverySetting) {
     }
 }
 
+TEST(AccuracySettings, ACollapsedPileComesToRestAtEverySetting) {
+    for (const char* setting : {"fast", "standard"}) {
+        Simulation sim(collapse(named(setting)));
+        sim.run(4);
+        double fastest = 0;
+        for (const RobotState& state : sim.states)
+            for (const double v : state.v) fastest = std::fmax(fastest, std::fabs(v));
+        tell(std::string(setting) + ": fastest, m/s or rad/s", fastest);
+        EXPECT_LT(fastest, 1e-4) << setting;
+    }
+}
+
 TEST(AccuracySettings, ABrakedCarOnASlopeStandsAtEverySetting) {
     for (const char* setting : {"fast", "standard", "high"}) {
         World slope = empty_world(2e-3);
