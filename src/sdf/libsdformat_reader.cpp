@@ -1,6 +1,10 @@
 // Calls libsdformat.
 #include "sdf/libsdformat_reader.h"
 
+#include <algorithm>
+#include <initializer_list>
+#include <string_view>
+
 #include "sdf/console_capture.h"
 #include "sdf/libsdformat_errors.h"
 
@@ -10,6 +14,43 @@ namespace {
 Element element_at(const Skeleton& skeleton, int line) {
     const auto index = static_cast<std::size_t>(line - 1);
     return line >= 1 && index < skeleton.lines.size() ? skeleton.lines[index] : Element{};
+}
+
+/// What optional elements other than those `kept` may hold is forgotten. Plain values stay: they have
+/// defaults.
+void forget_children(const sdf::ElementPtr& description, std::initializer_list<std::string_view> kept) {
+    for (unsigned i = 0; i < description->GetElementDescriptionCount(); ++i) {
+        const sdf::ElementPtr child = description->GetElementDescription(i);
+        const bool is_plain = child->GetElementDescriptionCount() == 0;
+        if (is_plain || child->GetRequired() == "1") continue;
+        if (std::ranges::find(kept, child->GetName()) == kept.end()) child->Reset();
+    }
+}
+
+/// Forgets the descriptions of what no skeleton holds. libsdformat copies the description of a link, with all
+/// that links may hold, for each link that it reads.
+void forget_what_skeletons_lack(const sdf::ElementPtr& root) {
+    const auto each = [](const sdf::ElementPtr& parent, std::initializer_list<const char*> names,
+                         const auto& change) {
+        for (const char* name : names)
+            if (parent->HasElementDescription(name)) change(parent->GetElementDescription(name));
+    };
+    each(root, {"model"}, [&](const sdf::ElementPtr& model) {
+        each(model, {"link"}, [&](const sdf::ElementPtr& link) {
+            forget_children(link, {"pose", "inertial", "collision", "visual", "sensor", "light"});
+            each(link, {"sensor"}, [](const sdf::ElementPtr& sensor) {
+                forget_children(sensor, {"pose", "contact"});
+            });
+            each(link, {"visual"}, [&](const sdf::ElementPtr& visual) {
+                forget_children(visual, {"pose", "geometry"});
+                each(visual, {"geometry"},
+                     [](const sdf::ElementPtr& geometry) { forget_children(geometry, {"sphere"}); });
+            });
+        });
+        each(model, {"joint"}, [](const sdf::ElementPtr& joint) {
+            forget_children(joint, {"pose", "axis", "axis2"});
+        });
+    });
 }
 
 }  // namespace
@@ -52,6 +93,7 @@ LibsdformatReader::Known LibsdformatReader::parse(const Skeleton& skeleton) {
         if (!document_) {
             document_ = std::make_shared<sdf::SDF>();
             sdf::init(document_);
+            forget_what_skeletons_lack(document_->Root());
         }
         while (const auto child = document_->Root()->GetFirstElement()) document_->Root()->RemoveChild(child);
         sdf::ParserConfig config;

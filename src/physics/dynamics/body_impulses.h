@@ -104,17 +104,17 @@ inline bool is_plain(const Body& body) {
 
 }  // namespace body_impulse
 
-/// Inertias and impulses of all bodies: momentum * momentum_weight + dt * (weight - bias force), about O.
-/// `gravity`: m/s^2, world axes.
+/// Inertias and impulses of bodies `first` .. `last` - 1: momentum * momentum_weight + dt * (weight - bias
+/// force), about O. `gravity`: m/s^2, world axes.
 template <class T>
-void set_body_impulses(const Vec3& gravity, double dt, double momentum_weight, Mechanics<T>& work) {
+void set_body_impulses(const Vec3& gravity, double dt, double momentum_weight, std::size_t first,
+                       std::size_t last, Mechanics<T>& work) {
     const std::vector<Body>& bodies = work.type->bodies;
-    for (std::size_t b = 0; b < bodies.size(); ++b) {
+    for (std::size_t b = first; b < last; ++b) {
         const Body& body = bodies[b];
         BodyWorkT<T>& w = work.bodies[b];
         if constexpr (std::is_same_v<T, double>) {
-            if (b + 1 < bodies.size() && body_impulse::is_plain(body) &&
-                body_impulse::is_plain(bodies[b + 1])) {
+            if (b + 1 < last && body_impulse::is_plain(body) && body_impulse::is_plain(bodies[b + 1])) {
                 ++b;
                 body_impulse::set_two(gravity, body, bodies[b], dt, momentum_weight, w, work.bodies[b]);
                 continue;
@@ -127,6 +127,12 @@ void set_body_impulses(const Vec3& gravity, double dt, double momentum_weight, M
             cause.torque = cross(w.X_WB * broadcast<T>(body.p_BG) - work.origin - w.centre, weight);
         w.impulse = body_impulse::of(cause, w.centre, w.velocity, w.bias, dt, momentum_weight);
     }
+}
+
+/// Of all bodies.
+template <class T>
+void set_body_impulses(const Vec3& gravity, double dt, double momentum_weight, Mechanics<T>& work) {
+    set_body_impulses(gravity, dt, momentum_weight, 0, work.type->bodies.size(), work);
 }
 
 }  // namespace roboss

@@ -2,6 +2,7 @@
 #include "physics/dynamics/dynamics.h"
 
 #include "physics/bonds/bond_cover.h"
+#include "physics/dynamics/body_walk.h"
 #include "physics/dynamics/drag.h"
 #include "physics/dynamics/fluid_forces.h"
 
@@ -82,13 +83,25 @@ void place_robot(const Model& model, RobotId id, RobotState& state, RobotWork& w
 }
 
 void compute_impulse(const Model& model, double dt, double momentum_weight, std::span<const double> q,
-                     std::span<const double> v, RobotWork& work) {
-    set_body_impulses(model.gravity, dt, momentum_weight, work);
+                     std::span<const double> v, RobotWork& work, BodyWalk* walk) {
+    const RobotType& type = *work.type;
+    const bool shared = walk != nullptr && walk->shares(type);
+    if (shared)
+        walk->each_block(type, [&](std::size_t first, std::size_t last) {
+            set_body_impulses(model.gravity, dt, momentum_weight, first, last, work);
+        });
+    else
+        set_body_impulses(model.gravity, dt, momentum_weight, work);
     add_wrenches(*work.type, *work.state, dt, work);
     if (!work.type->drags.empty()) add_drag(model, dt, momentum_weight != 0, work);
     work.flows.clear();
     if (work.type->feels_flow) add_fluid_forces(model, dt, momentum_weight, q, work);
-    sum_impulses(dt, momentum_weight, q, v, work);
+    if (!shared) return sum_impulses(dt, momentum_weight, q, v, work);
+    work.impulse.resize(static_cast<std::size_t>(type.nv));
+    walk->branches().walk_to_root(
+        walk->team(), [&](std::size_t b) { project_impulse(type, b, work); },
+        [&](std::size_t b) { pass_impulse(type, b, work); });
+    add_joint_impulses(type, dt, momentum_weight, q, v, work);
 }
 
 void keep_inertias(const RobotType& type, double dt, Mechanics<double>& work) {

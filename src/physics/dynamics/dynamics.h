@@ -30,51 +30,68 @@ std::size_t put_base_part(const SpatialT<T>& force, std::size_t length, T* row) 
     return count;
 }
 
+/// Places one body; its parent is placed.
 template <class T>
-void forward_kinematics(const RobotType& type, std::span<const T> q, Mechanics<T>& work) {
+[[gnu::always_inline]] inline void place_body(const RobotType& type, const TransformT<T>& X_WR,
+                                              std::span<const T> q, std::size_t b, Mechanics<T>& work) {
+    const Body& body = type.bodies[b];
+    BodyWorkT<T>& w = work.bodies[b];
+    TransformT<T> X_WJ = X_WR;
+    if (body.joint != JointKind::kFree)
+        X_WJ = (body.parent < 0 ? X_WR : work.bodies[static_cast<std::size_t>(body.parent)].X_WB) *
+               broadcast<T>(body.X_PJ);
+    w.X_WB = joint_motion(body, X_WJ, q);
+    w.centre = w.X_WB * broadcast<T>(body.p_BC) - work.origin;
+    joint_axes(body, X_WJ.R, {w.X_WB.R, w.X_WB.p - work.origin},
+               &work.axes[static_cast<std::size_t>(body.v_index)]);
+}
+
+/// What placing begins with.
+template <class T>
+TransformT<T> start_placing(const RobotType& type, std::span<const T> q, Mechanics<T>& work) {
     const TransformT<T> X_WR = base_transform(q);
     work.origin = X_WR.p;
     work.bodies.resize(type.bodies.size());
     work.axes.resize(static_cast<std::size_t>(type.nv));
-    for (std::size_t b = 0; b < type.bodies.size(); ++b) {
-        const Body& body = type.bodies[b];
-        BodyWorkT<T>& w = work.bodies[b];
-        TransformT<T> X_WJ = X_WR;
-        if (body.joint != JointKind::kFree)
-            X_WJ = (body.parent < 0 ? X_WR : work.bodies[static_cast<std::size_t>(body.parent)].X_WB) *
-                   broadcast<T>(body.X_PJ);
-        w.X_WB = joint_motion(body, X_WJ, q);
-        w.centre = w.X_WB * broadcast<T>(body.p_BC) - work.origin;
-        joint_axes(body, X_WJ.R, {w.X_WB.R, w.X_WB.p - work.origin},
-                   &work.axes[static_cast<std::size_t>(body.v_index)]);
+    return X_WR;
+}
+
+template <class T>
+void forward_kinematics(const RobotType& type, std::span<const T> q, Mechanics<T>& work) {
+    const TransformT<T> X_WR = start_placing(type, q, work);
+    for (std::size_t b = 0; b < type.bodies.size(); ++b) place_body(type, X_WR, q, b, work);
+}
+
+/// Velocity and bias of one body; those of its parent are known.
+template <class T>
+[[gnu::always_inline]] inline void move_body(const RobotType& type, std::span<const T> v, std::size_t b,
+                                             Mechanics<T>& work) {
+    const Body& body = type.bodies[b];
+    BodyWorkT<T>& w = work.bodies[b];
+    const auto first = static_cast<std::size_t>(body.v_index);
+    if (body.joint == JointKind::kFree) {
+        w.velocity = {{v[first], v[first + 1], v[first + 2]}, {v[first + 3], v[first + 4], v[first + 5]}};
+        // A base whose origin does not accelerate: its spatial acceleration about the fixed point O is -w
+        // x v.
+        w.bias = {{}, -cross(w.velocity.angular, w.velocity.linear)};
+        return;
+    }
+    SpatialT<T> joint = work.axes[first] * v[first];
+    for (std::size_t k = 1; k < static_cast<std::size_t>(body.nv); ++k)
+        joint += work.axes[first + k] * v[first + k];
+    if (body.parent < 0) {
+        w.velocity = joint;
+        w.bias = {};
+    } else {
+        const BodyWorkT<T>& parent = work.bodies[static_cast<std::size_t>(body.parent)];
+        w.velocity = parent.velocity + joint;
+        w.bias = parent.bias + cross_motion(parent.velocity, joint);
     }
 }
 
 template <class T>
 void forward_velocities(const RobotType& type, std::span<const T> v, Mechanics<T>& work) {
-    for (std::size_t b = 0; b < type.bodies.size(); ++b) {
-        const Body& body = type.bodies[b];
-        BodyWorkT<T>& w = work.bodies[b];
-        const auto first = static_cast<std::size_t>(body.v_index);
-        if (body.joint == JointKind::kFree) {
-            w.velocity = {{v[first], v[first + 1], v[first + 2]}, {v[first + 3], v[first + 4], v[first + 5]}};
-            // A base whose origin does not accelerate: its spatial acceleration about the fixed point O is -w
-            // x v.
-            w.bias = {{}, -cross(w.velocity.angular, w.velocity.linear)};
-            continue;
-        }
-        SpatialT<T> joint = work.axes[first] * v[first];
-        for (std::size_t k = 1; k < static_cast<std::size_t>(body.nv); ++k)
-            joint += work.axes[first + k] * v[first + k];
-        if (body.parent < 0) {
-            w.velocity = joint;
-            w.bias = {};
-        } else {
-            const BodyWorkT<T>& parent = work.bodies[static_cast<std::size_t>(body.parent)];
-            w.velocity = parent.velocity + joint;
-            w.bias = parent.bias + cross_motion(parent.velocity, joint);
-        }
-    }
+    for (std::size_t b = 0; b < type.bodies.size(); ++b) move_body(type, v, b, work);
 }
 
 template <class T>
@@ -124,6 +141,28 @@ void add_joint_impulses(const RobotType& type, double dt, double momentum_weight
     }
 }
 
+/// The impulse of one body and its subtree along its degrees of freedom.
+template <class T>
+[[gnu::always_inline]] inline void project_impulse(const RobotType& type, std::size_t b, Mechanics<T>& work) {
+    const Body& body = type.bodies[b];
+    const BodyWorkT<T>& w = work.bodies[b];
+    if (body.joint == JointKind::kFree) {
+        put_base_part(w.impulse, 6, work.impulse.data());
+        return;
+    }
+    for (int k = 0; k < body.nv; ++k) {
+        const auto i = static_cast<std::size_t>(body.v_index + k);
+        work.impulse[i] = dot(work.axes[i], w.impulse);
+    }
+}
+
+/// Adds the impulse of a body and its subtree to that of its parent, if it has one.
+template <class T>
+[[gnu::always_inline]] inline void pass_impulse(const RobotType& type, std::size_t b, Mechanics<T>& work) {
+    const int parent = type.bodies[b].parent;
+    if (parent >= 0) work.bodies[static_cast<std::size_t>(parent)].impulse += work.bodies[b].impulse;
+}
+
 /// Sums the bodies' impulses from the tips to the root, along each degree of freedom.
 template <class T>
 void sum_impulses(double dt, double momentum_weight, std::span<const T> q, std::span<const T> v,
@@ -131,17 +170,8 @@ void sum_impulses(double dt, double momentum_weight, std::span<const T> q, std::
     const RobotType& type = *work.type;
     work.impulse.resize(static_cast<std::size_t>(type.nv));
     for (std::size_t b = type.bodies.size(); b-- > 0;) {
-        const Body& body = type.bodies[b];
-        const BodyWorkT<T>& w = work.bodies[b];
-        if (body.joint == JointKind::kFree) {
-            put_base_part(w.impulse, 6, work.impulse.data());
-            continue;
-        }
-        for (int k = 0; k < body.nv; ++k) {
-            const auto i = static_cast<std::size_t>(body.v_index + k);
-            work.impulse[i] = dot(work.axes[i], w.impulse);
-        }
-        if (body.parent >= 0) work.bodies[static_cast<std::size_t>(body.parent)].impulse += w.impulse;
+        project_impulse(type, b, work);
+        pass_impulse(type, b, work);
     }
     add_joint_impulses(type, dt, momentum_weight, q, v, work);
 }

@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <string>
 
+#include "core/check.h"
 #include "model/coordinates.h"
 #include "model/loop_closure.h"
 #include "physics/dynamics/tree_factor.h"
@@ -63,6 +65,38 @@ void add_coupling(const RobotType& type, std::span<const double> q, const Coordi
     out.rows.push_back(row);
 }
 
+/// A robot with an elimination has loops alone, and how many rows a loop has is up to its kind.
+void gather_loops(const RobotWork& work, std::span<const double> q, const Team& team, Equalities& out) {
+    constexpr std::size_t kBlock = 32;  // loops
+    const std::vector<LoopJoint>& loops = work.type->loops;
+    const auto rows_of = [&](const LoopJoint& loop) {
+        return closure_rows(loop, motion_of(work, q, loop.body_a), motion_of(work, q, loop.body_b));
+    };
+    out.has_columns = false, out.columns.clear();
+    if (out.stamp != work.type->elimination.pattern.stamp()) {
+        out.stamp = work.type->elimination.pattern.stamp();
+        out.first_row.assign(1, 0);
+        for (const LoopJoint& loop : loops)
+            out.first_row.push_back(out.first_row.back() + rows_of(loop).count);
+    }
+    out.rows.resize(out.first_row.back());
+    team.run_blocks(loops.size(), kBlock, [&](std::size_t first, std::size_t last) {
+        for (std::size_t i = first; i < last; ++i) {
+            const ClosureRows closure = rows_of(loops[i]);
+            ROBOSS_CHECK(closure.count == out.first_row[i + 1] - out.first_row[i],
+                         std::to_string(closure.count) + " rows of a loop");
+            for (std::size_t k = 0; k < closure.count; ++k) {
+                const ClosureRow& condition = closure.rows[k];
+                EqualityRow& row = out.rows[out.first_row[i] + k];
+                row.first = row.last = 0;
+                row.error = condition.error, row.curvature = condition.curvature;
+                row.mobility = condition.mobility;
+                row.loop = static_cast<int>(i), row.wrench = condition.wrench;
+            }
+        }
+    });
+}
+
 void gather(const RobotWork& work, std::span<const double> q, bool with_columns, Equalities& out) {
     out.columns.clear(), out.rows.clear();
     out.has_columns = with_columns;
@@ -94,8 +128,10 @@ void gather_equalities(const RobotWork& work, std::span<const double> q, Equalit
     gather(work, q, true, equalities);
 }
 
-void gather_for_solver(const RobotWork& work, std::span<const double> q, Equalities& equalities) {
-    gather(work, q, EqualitySolver::needs_mass_matrix(*work.type), equalities);
+void gather_for_solver(const RobotWork& work, std::span<const double> q, Equalities& equalities,
+                       const Team& team) {
+    if (EqualitySolver::needs_mass_matrix(*work.type)) return gather(work, q, true, equalities);
+    gather_loops(work, q, team, equalities);
 }
 
 double times_row(const Equalities& equalities, const EqualityRow& row, std::span<const double> x) {
@@ -201,9 +237,9 @@ void leave_out_locked(std::span<const char> locked, Equalities& equalities) {
 
 void EqualityProjection::place(const RobotType& type, std::span<const double> q) {
     work_.type = &type;
-    forward_kinematics<double>(type, q, work_);
+    walk_.place(type, q, work_);
     for (BodyWork& body : work_.bodies) body.velocity = body.bias = {};
-    gather_for_solver(work_, q, equalities_);
+    gather_for_solver(work_, q, equalities_, walk_.team());
     wanted_.resize(equalities_.rows.size());
     change_.resize(static_cast<std::size_t>(type.nv));
 }

@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "physics/dynamics/body_walk.h"
 #include "physics/dynamics/robot_work.h"
 #include "physics/dynamics/sparse_equality.h"
 
@@ -31,12 +32,16 @@ struct Equalities {
     std::vector<EqualityRow> rows;
     bool has_columns = true;
     std::vector<Spatial> motions;  // of the bodies; a buffer
+    // without columns: the first row of each loop, and the end; and of which elimination they are
+    std::vector<std::size_t> first_row;
+    std::uint64_t stamp = 0;
 };
 
 /// All equalities of a placed robot (moved, too, if the curvatures are wanted) at coordinates q.
 void gather_equalities(const RobotWork& work, std::span<const double> q, Equalities& equalities);
-/// The same without columns if EqualitySolver needs none.
-void gather_for_solver(const RobotWork& work, std::span<const double> q, Equalities& equalities);
+/// The same without columns if EqualitySolver needs none; then by the threads of a team.
+void gather_for_solver(const RobotWork& work, std::span<const double> q, Equalities& equalities,
+                       const Team& team = {});
 
 /// Takes locked degrees of freedom (none: empty) out of the rows.
 void leave_out_locked(std::span<const char> locked, Equalities& equalities);
@@ -87,7 +92,7 @@ class EqualitySolver {
 /// of its mass: momentum stays. Degrees of freedom that are `locked` do not move.
 class EqualityProjection {
   public:
-    void share_with(const Team& team) { solver_.share_with(team); }
+    void share_with(const Team& team) { solver_.share_with(team), walk_.share_with(team); }
     void close_coordinates(const RobotType& type, std::span<double> q, std::span<const char> locked = {});
     void close_velocities(const RobotType& type, std::span<const double> q, std::span<double> v,
                           std::span<const char> locked = {});
@@ -100,6 +105,7 @@ class EqualityProjection {
     RobotWork work_;
     Equalities equalities_;
     EqualitySolver solver_;
+    BodyWalk walk_;
     std::vector<double> wanted_, change_, q_before_;
 };
 

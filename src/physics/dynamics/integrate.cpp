@@ -31,7 +31,7 @@ void normalise(const RobotType& type, std::span<double> q) {
 /// The acceleration of a net by the forces on its tree, loops closed, into its work's velocity.
 void net_acceleration(std::span<const double> q, std::span<const char> locked, FreeBuffer& free) {
     RobotWork& work = free.work;
-    gather_for_solver(work, q, free.equalities);
+    gather_for_solver(work, q, free.equalities, free.walk.team());
     leave_out_locked(locked, free.equalities);
     free.solver.prepare(work, locked, free.equalities);
     free.wanted.clear();
@@ -77,9 +77,9 @@ void gather_forces(const Model& model, const SteadyRows& rows, std::span<const d
                    std::span<const double> v, FreeBuffer& free) {
     RobotWork& buffer = free.work;
     const RobotType& type = *buffer.type;
-    forward_kinematics<double>(type, q, buffer);
-    forward_velocities<double>(type, v, buffer);
-    compute_impulse(model, 1.0, 0.0, q, v, buffer);
+    free.walk.place(type, q, buffer);
+    free.walk.move(type, v, buffer);
+    compute_impulse(model, 1.0, 0.0, q, v, buffer, &free.walk);
     add_joint_forces(model, q, v, rows.has_stiff, buffer);
     for (std::size_t i = 0; i < rows.force.size(); ++i) buffer.impulse[i] += rows.force[i];
     for (std::size_t i = 0; i < rows.locked.size(); ++i)
@@ -163,17 +163,56 @@ void close(const SteadyRows& rows, const RobotType& type, RobotState& state, Fre
     buffer.projection.close_velocities(type, state.q, state.v, rows.locked);
 }
 
+/// The velocity after a step with the loops open, by the acceleration of the tree at the beginning.
+void set_open_velocity(double dt, const RobotWork& work, std::span<const double> before, FreeBuffer& buffer) {
+    buffer.open_velocity.assign(before.begin(), before.end());
+    for (std::size_t i = 0; i < buffer.open_velocity.size(); ++i)
+        buffer.open_velocity[i] += dt * work.velocity[i];
+}
+
+/// The same of a net, whose steps do without that acceleration.
+void find_open_velocity(const Model& model, double dt, const SteadyRows& rows, const RobotWork& work,
+                        FreeBuffer& buffer) {
+    buffer.q = buffer.q_start;
+    normalise(*work.type, buffer.q);
+    gather_forces(model, rows, buffer.q, buffer.v_start, buffer);
+    tree_acceleration(rows, buffer);
+    set_open_velocity(dt, buffer.work, buffer.v_start, buffer);
+}
+
+/// Bounds from below what kinetic energy a net has at the beginning of a step, and would have after it with
+/// its loops open. With a = M^-1 f that is T + dt v f + dt^2 / 2 a M a, where the last term is not negative.
+/// A joint that is locked and moves does work that f does not tell.
+void note_energies(double dt, const SteadyRows& rows, std::span<const double> v, FreeBuffer& buffer) {
+    double kinetic = 0, power = 0;
+    for (const BodyWork& body : buffer.work.bodies)
+        kinetic += 0.5 * dot(body.inertia * body.velocity, body.velocity);
+    bool is_known = true;
+    for (std::size_t i = 0; i < v.size(); ++i) {
+        power += v[i] * buffer.work.impulse[i];
+        is_known = is_known && (rows.locked.empty() || !rows.locked[i] || v[i] == 0);
+    }
+    buffer.kinetic_start = kinetic;
+    buffer.kinetic_open = is_known ? kinetic + dt * power : kinetic;
+}
+
 /// True where a step made kinetic energy that no force gave. Loop reactions do no work, so at most the energy
 /// remains that the robot had, or would have with its loops open. Near a dead point of a mechanism the
 /// conditions of its loops are almost dependent, and reactions grow beyond what the method follows.
-bool gained_energy(const Model& model, const RobotWork& work, FreeBuffer& buffer) {
+bool gained_energy(const Model& model, double dt, const SteadyRows& rows, const RobotWork& work,
+                   FreeBuffer& buffer) {
     constexpr double kMore = 1.05;
     const auto kinetic = [&](std::span<const double> q, std::span<const double> v) {
-        return sum_bodies(model, q, v, work.origin, buffer.work).kinetic;
+        return sum_bodies(model, q, v, work.origin, buffer.work, &buffer.walk).kinetic;
     };
+    const double now = kinetic(work.state->q, work.state->v);
+    if (is_net(*work.type)) {
+        if (now <= kMore * std::max(buffer.kinetic_start, buffer.kinetic_open)) return false;
+        find_open_velocity(model, dt, rows, work, buffer);
+    }
     const double most =
         std::max(kinetic(buffer.q_start, buffer.v_start), kinetic(buffer.q_start, buffer.open_velocity));
-    return !(kinetic(work.state->q, work.state->v) <= kMore * most);
+    return !(now <= kMore * most);
 }
 
 /// A step of first order that projects velocities onto the loops: that takes energy and never gives it.
@@ -192,14 +231,13 @@ void accelerate(const Model& model, double dt, const SteadyRows& rows, bool is_f
                 FreeBuffer& buffer) {
     const RobotType& type = *work.type;
     gather_forces(model, rows, buffer.q, buffer.v, buffer);
-    if (is_net(type) && !is_first) return net_acceleration(buffer.q, rows.locked, buffer);
+    if (is_net(type)) {
+        if (is_first) note_energies(dt, rows, buffer.v, buffer);
+        return net_acceleration(buffer.q, rows.locked, buffer);
+    }
     tree_acceleration(rows, buffer);
     if (!type.has_equalities()) return;
-    if (is_first) {
-        buffer.open_velocity = work.state->v;
-        for (std::size_t i = 0; i < buffer.open_velocity.size(); ++i)
-            buffer.open_velocity[i] += dt * buffer.work.velocity[i];
-    }
+    if (is_first) set_open_velocity(dt, buffer.work, work.state->v, buffer);
     add_equality_acceleration(buffer.q, rows.locked, buffer);
 }
 
@@ -227,7 +265,7 @@ void advance_part(const Model& model, double dt, const SteadyRows& rows, RobotWo
     normalise(type, state.q);
     if (!type.has_equalities()) return;
     close(rows, type, state, buffer);
-    if (gained_energy(model, work, buffer)) advance_projected(dt, rows, work, buffer);
+    if (gained_energy(model, dt, rows, work, buffer)) advance_projected(dt, rows, work, buffer);
 }
 
 }  // namespace

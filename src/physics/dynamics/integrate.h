@@ -22,16 +22,21 @@ struct HeldJoints {
 
 struct FreeBuffer {
     /// Whose threads may share the work.
-    void share_with(const Team& team) { solver.share_with(team), projection.share_with(team); }
+    void share_with(const Team& team) {
+        solver.share_with(team), projection.share_with(team), walk.share_with(team);
+    }
 
     RobotWork work;
     Equalities equalities;
     EqualitySolver solver;
     EqualityProjection projection;
+    BodyWalk walk;
     std::vector<double> wanted, change, factor;
     std::vector<double> q, q_sum, v, v_sum;
     std::vector<double> q_start, v_start,
         open_velocity;                     // of a robot with loops; the last with its loops open
+    double kinetic_start = 0;              // J; of a net
+    double kinetic_open = 0;               // J; of a net: at most its energy with its loops open
     std::vector<double> q_rates, v_rates;  // of all stages, one after the other
     std::vector<double> force;             // of SteadyRows
     HeldJoints held;

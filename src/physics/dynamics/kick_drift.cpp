@@ -67,7 +67,7 @@ class KickDrift {
     /// True where nothing may add to the robot's energy.
     bool keeps_energy() const { return solved_.isolated && solved_.passive; }
     bool rows_act() const { return !solved_.velocity.empty(); }
-    BodySums sums() { return sum_bodies(model_, state_.q, state_.v, origin_, buffer_.work); }
+    BodySums sums() { return sum_bodies(model_, state_.q, state_.v, origin_, buffer_.work, &buffer_.walk); }
     std::size_t dof_index(std::size_t d) const { return d + static_cast<std::size_t>(type_.base_nv()); }
 
     void start() {
@@ -100,7 +100,7 @@ class KickDrift {
     }
     void attempt_again() {
         state_.q = buffer_.held.q_start, state_.v = buffer_.held.v_start;
-        forward_kinematics<double>(type_, state_.q, work_);
+        buffer_.walk.place(type_, state_.q, work_);
         attempt();
     }
 
@@ -137,7 +137,7 @@ class KickDrift {
         for (const std::span<const double> v :
              {std::span(before), rows_act() ? solved_.velocity : std::span(before),
               std::span<const double>(state_.v)}) {
-            forward_velocities<double>(type_, v, work_);
+            buffer_.walk.move(type_, v, work_);
             fastest_ = std::max(fastest_, fastest_turn(work_));
         }
         buffer_.force.assign(solved_.load.begin(), solved_.load.end());
@@ -180,7 +180,8 @@ class KickDrift {
         if (is_too_fast(fastest_)) return true;
         if (keeps_energy()) return false;
         const double solution =
-            sum_bodies(model_, buffer_.held.q_start, solved_.velocity, origin_, buffer_.work).kinetic;
+            sum_bodies(model_, buffer_.held.q_start, solved_.velocity, origin_, buffer_.work, &buffer_.walk)
+                .kinetic;
         if (!(kicked_.kinetic <= kMoreByKick * std::max(before.kinetic, solution))) return true;
         const BodySums now = sums();
         return !(now.energy() <= kMoreByDrift * std::max(kicked_.kinetic, solution) + kicked_.potential);
@@ -291,7 +292,7 @@ class KickDrift {
     /// tick.
     Spatial displaced() {
         const std::vector<double>& extra = buffer_.wanted;
-        return sum_bodies(model_, buffer_.held.q_start, extra, origin_, buffer_.work).momentum;
+        return sum_bodies(model_, buffer_.held.q_start, extra, origin_, buffer_.work, &buffer_.walk).momentum;
     }
 
     /// What the drift loses of momentum, and gains of energy, is put right. False if too much energy remains.

@@ -7,6 +7,7 @@
 #include "math/spatial_shift.h"
 #include "model/joint_motion.h"
 #include "physics/dynamics/body_impulses.h"
+#include "physics/dynamics/body_walk.h"
 
 namespace roboss {
 namespace {
@@ -63,19 +64,36 @@ bool BodySums::rigid_motion(Spatial& motion) const {
 }
 
 BodySums sum_placed_bodies(const Model& model, std::span<const double> q, std::span<const double> v,
-                           const Vec3& origin, RobotWork& work) {
+                           const Vec3& origin, RobotWork& work, BodyWalk* walk) {
     const RobotType& type = *work.type;
-    compute_inertias(type, work);
     const Vec3 arm = work.origin - origin;
     BodySums sums;
-    for (std::size_t b = 0; b < type.bodies.size(); ++b) {
+    const auto terms_of = [&](std::size_t b) -> BodyWalk::Terms {
         const BodyWork& body = work.bodies[b];
         const Spatial momentum = body.inertia * body.velocity;
-        sums.momentum += momentum;
-        sums.kinetic += 0.5 * dot(momentum, body.velocity);
-        sums.inertia += body.inertia;
         const Vec3 heavy = body.X_WB * type.bodies[b].p_BG - origin;
-        sums.potential -= type.bodies[b].gravity_mass * dot(model.gravity, heavy);
+        return {momentum, 0.5 * dot(momentum, body.velocity),
+                type.bodies[b].gravity_mass * dot(model.gravity, heavy)};
+    };
+    const auto add = [&](std::size_t b, const BodyWalk::Terms& terms) {
+        sums.momentum += terms.momentum;
+        sums.kinetic += terms.kinetic;
+        sums.inertia += work.bodies[b].inertia;
+        sums.potential -= terms.potential;
+    };
+    if (walk != nullptr && walk->shares(type)) {  // no flows: compute_inertias would set the inertias alone
+        std::vector<BodyWalk::Terms>& terms = walk->terms(type);
+        walk->each_block(type, [&](std::size_t first, std::size_t last) {
+            for (std::size_t b = first; b < last; ++b) {
+                set_inertia(type.bodies[b], work.bodies[b]);
+                terms[b] = terms_of(b);
+            }
+        });
+        work.flows.clear();
+        for (std::size_t b = 0; b < type.bodies.size(); ++b) add(b, terms[b]);
+    } else {
+        compute_inertias(type, work);
+        for (std::size_t b = 0; b < type.bodies.size(); ++b) add(b, terms_of(b));
     }
     for (std::size_t d = 0; d < type.dofs.size(); ++d) {
         const Dof& dof = type.dofs[d];
@@ -130,10 +148,15 @@ Slowdown slowdown_to(double kinetic, const BodySums& sums, bool anchored) {
 }
 
 BodySums sum_bodies(const Model& model, std::span<const double> q, std::span<const double> v,
-                    const Vec3& origin, RobotWork& work) {
-    forward_kinematics<double>(*work.type, q, work);
-    forward_velocities<double>(*work.type, v, work);
-    return sum_placed_bodies(model, q, v, origin, work);
+                    const Vec3& origin, RobotWork& work, BodyWalk* walk) {
+    if (walk != nullptr) {
+        walk->place(*work.type, q, work);
+        walk->move(*work.type, v, work);
+    } else {
+        forward_kinematics<double>(*work.type, q, work);
+        forward_velocities<double>(*work.type, v, work);
+    }
+    return sum_placed_bodies(model, q, v, origin, work, walk);
 }
 
 }  // namespace roboss

@@ -29,13 +29,13 @@ struct BodySums {
 };
 
 /// Sums over the robot at coordinates q and velocities v about `origin` (world, m). Overwrites the poses,
-/// velocities and inertias of `work`, whose type is set.
+/// velocities and inertias of `work`, whose type is set. `walk`: by its threads.
 BodySums sum_bodies(const Model& model, std::span<const double> q, std::span<const double> v,
-                    const Vec3& origin, RobotWork& work);
+                    const Vec3& origin, RobotWork& work, BodyWalk* walk = nullptr);
 
 /// The same of a placed and moved robot, which keeps everything but its inertias.
 BodySums sum_placed_bodies(const Model& model, std::span<const double> q, std::span<const double> v,
-                           const Vec3& origin, RobotWork& work);
+                           const Vec3& origin, RobotWork& work, BodyWalk* walk = nullptr);
 
 /// Moves the bodies of `sums` as a whole: by `displacement`, then by adding the rigid motion `change` (about
 /// the origin).

@@ -86,6 +86,8 @@ inline bool is_zero(const Spatial& v) {
     return v.angular == Vec3{} && v.linear == Vec3{};
 }
 
+class BodyWalk;
+
 /// Parts of it in the order of computing (dynamics.h); `dt` in s.
 template <class T>
 void forward_kinematics(const RobotType& type, std::span<const T> q, Mechanics<T>& work);
@@ -96,8 +98,9 @@ void place_shapes(const RobotType& type, double dt, std::span<const T> q, Mechan
 /// work.impulse = momentum_weight * M v + dt * (applied - bias); with (1, 0) the generalised force alone.
 /// With a weight, drag is taken implicitly: part of it then stands in the bodies' inertias, for
 /// compute_mass_matrix.
+/// `walk`: by its threads.
 void compute_impulse(const Model& model, double dt, double momentum_weight, std::span<const double> q,
-                     std::span<const double> v, RobotWork& work);
+                     std::span<const double> v, RobotWork& work, BodyWalk* walk = nullptr);
 /// Inertias of the bodies alone, as compute_impulse sets them on the way; compute_mass_matrix needs them.
 void compute_inertias(const RobotType& type, RobotWork& work);
 template <class T>

@@ -54,6 +54,7 @@ void solve_axes(std::span<const Spatial> axes, double* x) {
 void SparseEqualitySolver::prepare(const RobotWork& work, std::span<const char> locked,
                                    const Equalities& equalities) {
     work_ = &work, locked_ = locked;
+    branches_.lay_out(*work.type);
     prepare_bodies();
     gather_rows(equalities);
     matrix_.lay_out(elimination_of(work).pattern, count_);
@@ -85,44 +86,53 @@ void SparseEqualitySolver::gather_rows(const Equalities& equalities) {
     loop_rows_.assign(work_->type->loops.size() + 1, 0);
     for (const EqualityRow& row : equalities.rows) ++loop_rows_[static_cast<std::size_t>(row.loop) + 1];
     for (std::size_t i = 1; i < loop_rows_.size(); ++i) loop_rows_[i] += loop_rows_[i - 1];
-    first_row_.assign(1, 0), count_.clear(), rows_.clear(), wanted_of_.clear();
-    for (std::size_t k = 0; k < elimination.nodes.size(); ++k) {
-        const JointElimination::Node& node = elimination.nodes[k];
-        if (node.loop < 0) {
-            add_tree_rows(static_cast<std::size_t>(node.body_b));
-        } else {
-            const auto loop = static_cast<std::size_t>(node.loop);
-            for (std::size_t i = loop_rows_[loop]; i < loop_rows_[loop + 1]; ++i) {
-                rows_.push_back({equalities.rows[i].wrench, {}, {}});
-                wanted_of_.push_back(static_cast<int>(i));
-            }
-        }
-        count_.push_back(rows_.size() - first_row_.back());
-        first_row_.push_back(rows_.size());
+    tree_rows_.resize(work_->type->bodies.size());
+    team_.run_blocks(tree_rows_.size(), kBlock, [&](std::size_t first, std::size_t last) {
+        for (std::size_t b = first; b < last; ++b) tree_rows_[b] = tree_rows(b);
+    });
+    first_row_.assign(1, 0), count_.clear();
+    for (const JointElimination::Node& node : elimination.nodes) {
+        const auto loop = static_cast<std::size_t>(node.loop);
+        count_.push_back(node.loop < 0 ? tree_rows_[static_cast<std::size_t>(node.body_b)].count
+                                       : loop_rows_[loop + 1] - loop_rows_[loop]);
+        first_row_.push_back(first_row_.back() + count_.back());
     }
-    scale_.resize(rows_.size());
+    const std::size_t rows = first_row_.back();
+    rows_.resize(rows), scale_.resize(rows), wanted_of_.resize(rows);
     team_.run_blocks(count_.size(), kBlock, [&](std::size_t first, std::size_t last) {
-        for (std::size_t k = first; k < last; ++k) scale_rows(k);
+        for (std::size_t k = first; k < last; ++k) put_rows(k, equalities), scale_rows(k);
     });
 }
 
-/// What the joint between a body and its parent bears.
-void SparseEqualitySolver::add_tree_rows(std::size_t body) {
+SparseEqualitySolver::TreeRows SparseEqualitySolver::tree_rows(std::size_t body) const {
     const Body& b = work_->type->bodies[body];
     const Vec3 p = work_->bodies[body].X_WB.p - work_->origin;
     const Axes axes = axes_of(body, p);
+    TreeRows rows;
     if (b.joint == JointKind::kBall && axes.count == 3) {
-        for (const Vec3& force : {Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}}) add_tree_row(p, {{}, force});
-        return;
+        for (const Vec3& force : {Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}})
+            rows.wrench[rows.count++] = force_from({{}, force}, p);
+        return rows;
     }
     const JointComplement complement = joint_complement(std::span(axes.axis).first(axes.count));
-    for (std::size_t i = 0; i < complement.count; ++i) add_tree_row(p, complement.wrenches[i]);
+    for (std::size_t i = 0; i < complement.count; ++i)
+        rows.wrench[rows.count++] = force_from(complement.wrenches[i], p);
+    return rows;
 }
 
-/// A wrench about p.
-void SparseEqualitySolver::add_tree_row(const Vec3& p, const Spatial& wrench) {
-    rows_.push_back({force_from(wrench, p), {}, {}});
-    wanted_of_.push_back(-1);
+void SparseEqualitySolver::put_rows(std::size_t node, const Equalities& equalities) {
+    const JointElimination::Node& joint = elimination_of(*work_).nodes[node];
+    for (std::size_t i = 0; i < count_[node]; ++i) {
+        const std::size_t to = first_row_[node] + i;
+        if (joint.loop < 0) {
+            rows_[to].wrench = tree_rows_[static_cast<std::size_t>(joint.body_b)].wrench[i];
+            wanted_of_[to] = -1;
+        } else {
+            const std::size_t from = loop_rows_[static_cast<std::size_t>(joint.loop)] + i;
+            rows_[to].wrench = equalities.rows[from].wrench;
+            wanted_of_[to] = static_cast<int>(from);
+        }
+    }
 }
 
 /// To mobility 1.
@@ -188,15 +198,18 @@ void SparseEqualitySolver::move_bodies(std::span<const double> forces) {
     team_.run_blocks(type.bodies.size(), kBlock, [&](std::size_t first, std::size_t last) {
         for (std::size_t b = first; b < last; ++b) joint_wrenches_[b] = wrench_of(b, forces);
     });
-    wrenches_.assign(type.bodies.size(), {});
-    for (std::size_t b = 0; b < type.bodies.size(); ++b) {
-        wrenches_[b] += joint_wrenches_[b];
-        if (type.bodies[b].parent >= 0)
-            wrenches_[static_cast<std::size_t>(type.bodies[b].parent)] += joint_wrenches_[b] * -1.0;
-    }
     change_.resize(type.bodies.size());
     team_.run_blocks(type.bodies.size(), kBlock, [&](std::size_t first, std::size_t last) {
-        for (std::size_t b = first; b < last; ++b) change_[b] = moved(static_cast<int>(b), wrenches_[b]);
+        for (std::size_t b = first; b < last; ++b) {
+            Spatial wrench;
+            for (const std::size_t k : branches_.nodes_of(b)) {
+                const JointElimination::Node& node = elimination_of(*work_).nodes[k];
+                if (node.loop >= 0) break;  // nodes of the tree come first
+                const auto child = static_cast<std::size_t>(node.body_b);
+                wrench += child == b ? joint_wrenches_[child] : joint_wrenches_[child] * -1.0;
+            }
+            change_[b] = moved(static_cast<int>(b), wrench);
+        }
     });
 }
 
@@ -204,17 +217,21 @@ void SparseEqualitySolver::move_bodies(std::span<const double> forces) {
 void SparseEqualitySolver::set_lacking(std::span<const double> wanted) {
     const JointElimination& elimination = elimination_of(*work_);
     x_.resize(rows_.size());
-    for (std::size_t k = 0; k < elimination.nodes.size(); ++k) {
-        const JointElimination::Node& node = elimination.nodes[k];
-        Spatial motion;
-        if (node.body_b >= 0) motion = change_[static_cast<std::size_t>(node.body_b)];
-        if (node.body_a >= 0) motion = motion - change_[static_cast<std::size_t>(node.body_a)];
-        for (std::size_t i = first_row_[k]; i < first_row_[k + 1]; ++i) {
-            const double asked =
-                wanted_of_[i] < 0 ? 0.0 : scale_[i] * wanted[static_cast<std::size_t>(wanted_of_[i])];
-            x_[i] = asked - dot(rows_[i].wrench, motion);
+    team_.run_blocks(elimination.nodes.size(), kBlock, [&](std::size_t first, std::size_t last) {
+        for (std::size_t k = first; k < last; ++k) {
+            const JointElimination::Node& node = elimination.nodes[k];
+            Spatial motion;
+            if (node.body_b >= 0) motion = change_[static_cast<std::size_t>(node.body_b)];
+            if (node.body_a >= 0) motion = motion - change_[static_cast<std::size_t>(node.body_a)];
+            for (std::size_t i = first_row_[k]; i < first_row_[k + 1]; ++i)
+                x_[i] = asked(i, wanted) - dot(rows_[i].wrench, motion);
         }
-    }
+    });
+}
+
+/// What a row is to give, scaled.
+double SparseEqualitySolver::asked(std::size_t row, std::span<const double> wanted) const {
+    return wanted_of_[row] < 0 ? 0.0 : scale_[row] * wanted[static_cast<std::size_t>(wanted_of_[row])];
 }
 
 void SparseEqualitySolver::accelerate(std::span<const double> forces, std::span<const double> wanted,
@@ -228,8 +245,7 @@ void SparseEqualitySolver::accelerate(std::span<const double> forces, std::span<
 
 void SparseEqualitySolver::solve(std::span<const double> wanted, std::span<double> change) {
     x_.resize(rows_.size());
-    for (std::size_t i = 0; i < rows_.size(); ++i)
-        x_[i] = wanted_of_[i] < 0 ? 0.0 : scale_[i] * wanted[static_cast<std::size_t>(wanted_of_[i])];
+    for (std::size_t i = 0; i < rows_.size(); ++i) x_[i] = asked(i, wanted);
     matrix_.solve(*this, x_, kImplied, team_);
     change_.assign(mobilities_.size(), {});
     push_bodies();
@@ -239,13 +255,14 @@ void SparseEqualitySolver::solve(std::span<const double> wanted, std::span<doubl
 /// Adds what the rows' impulses do to the bodies' motions.
 void SparseEqualitySolver::push_bodies() {
     const JointElimination& elimination = elimination_of(*work_);
-    for (std::size_t k = 0; k < elimination.nodes.size(); ++k) {
-        const JointElimination::Node& node = elimination.nodes[k];
-        for (std::size_t i = first_row_[k]; i < first_row_[k + 1]; ++i) {
-            if (node.body_a >= 0) change_[static_cast<std::size_t>(node.body_a)] += rows_[i].by_a * x_[i];
-            if (node.body_b >= 0) change_[static_cast<std::size_t>(node.body_b)] += rows_[i].by_b * x_[i];
-        }
-    }
+    team_.run_blocks(change_.size(), kBlock, [&](std::size_t first, std::size_t last) {
+        for (std::size_t b = first; b < last; ++b)
+            for (const std::size_t k : branches_.nodes_of(b)) {
+                const bool is_a = elimination.nodes[k].body_a == static_cast<int>(b);
+                for (std::size_t i = first_row_[k]; i < first_row_[k + 1]; ++i)
+                    change_[b] += (is_a ? rows_[i].by_a : rows_[i].by_b) * x_[i];
+            }
+    });
 }
 
 /// The rates of a body's joint from the motions of the bodies, by least squares.

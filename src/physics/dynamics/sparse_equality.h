@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/team.h"
+#include "physics/dynamics/body_branches.h"
 #include "physics/dynamics/robot_work.h"
 #include "physics/sparse/block_ldlt.h"
 
@@ -40,6 +41,12 @@ class SparseEqualitySolver : BlockLdlt::Source {
         Vec3 centre;           // from O
     };
 
+    /// What the joint between a body and its parent bears: wrenches about O.
+    struct TreeRows {
+        std::array<Spatial, 6> wrench;
+        std::size_t count = 0;
+    };
+
     struct Axes {
         std::array<Spatial, 6> axis;
         std::array<std::size_t, 6> dof;
@@ -51,10 +58,11 @@ class SparseEqualitySolver : BlockLdlt::Source {
     Spatial wrench_of(std::size_t body, std::span<const double> forces) const;
     void move_bodies(std::span<const double> forces);
     void set_lacking(std::span<const double> wanted);
+    double asked(std::size_t row, std::span<const double> wanted) const;
     void push_bodies();
     void gather_rows(const Equalities& equalities);
-    void add_tree_rows(std::size_t body);
-    void add_tree_row(const Vec3& p, const Spatial& wrench);
+    TreeRows tree_rows(std::size_t body) const;
+    void put_rows(std::size_t node, const Equalities& equalities);
     void scale_rows(std::size_t node);
     void add_rows(std::size_t position, BlockLdlt& matrix) const override;
     void read_joint(std::size_t body, std::span<double> change) const;
@@ -71,11 +79,13 @@ class SparseEqualitySolver : BlockLdlt::Source {
     std::vector<double> scale_;           // of each row
     std::vector<int> wanted_of_;          // of each row: index of its loop row; -1: of the tree
     std::vector<std::size_t> loop_rows_;  // by loop: its first row in the equalities; and the end
+    std::vector<TreeRows> tree_rows_;     // by body
     std::vector<std::size_t> count_;      // of rows, by node
     BlockLdlt matrix_;
     Team team_;
-    std::vector<double> x_;                                    // impulses, by row
-    std::vector<Spatial> change_, wrenches_, joint_wrenches_;  // by body
+    BodyBranches branches_;
+    std::vector<double> x_;                         // impulses, by row
+    std::vector<Spatial> change_, joint_wrenches_;  // by body
 };
 
 }  // namespace roboss

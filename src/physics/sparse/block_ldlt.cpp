@@ -8,9 +8,8 @@
 namespace roboss {
 namespace {
 
-constexpr std::size_t kPanel = 16;  // rows eliminated before the rest of a front hears of them
 // Multiplications that make it worth waking other threads: for the whole, for the rows of one front.
-constexpr double kShareFrom = 1e6, kShareRowsFrom = 2e6;
+constexpr double kShareFrom = 1e6, kShareRowsFrom = 3e5;
 constexpr double kSubtreesPerThread = 4;
 
 std::size_t padded(std::size_t count) {
@@ -143,7 +142,7 @@ void BlockLdlt::plan(const Team& team) {
     if (buffers_.size() < team.size()) buffers_.resize(team.size());
     std::size_t largest = 0;
     for (const Front& front : fronts_) largest = std::max(largest, front.stride);
-    for (Buffer& buffer : buffers_) buffer.factors.resize(kPanel * largest), buffer.x.resize(largest);
+    for (Buffer& buffer : buffers_) buffer.factors.resize(kFrontPanel * largest), buffer.x.resize(largest);
 }
 
 /// Rows `first` .. `last` - 1 become zero, from the vector that holds the diagonal.
@@ -153,12 +152,13 @@ void BlockLdlt::clear_rows(const Front& front, std::size_t first, std::size_t la
         std::fill(a + r * front.stride + r / kFrontLanes * kFrontLanes, a + (r + 1) * front.stride, 0.0);
 }
 
-/// Everything of a cleared front but what its children give.
-void BlockLdlt::start_front(std::size_t f, const Source& source, std::span<const double> x) {
+/// Everything of a cleared front's nodes at positions `first` .. `last` - 1 but what its children give.
+void BlockLdlt::start_rows(std::size_t f, std::size_t first, std::size_t last, const Source& source,
+                           std::span<const double> x) {
     const BlockPattern::Front& shape = pattern_->fronts()[f];
     const Front& front = fronts_[f];
     double* a = matrix_of(front);
-    for (std::size_t p = shape.first; p < shape.last; ++p) {
+    for (std::size_t p = first; p < last; ++p) {
         source.add_rows(p, *this);
         const std::size_t node = pattern_->node(p);
         double* side = a + offsets_[front.offsets_at + p - shape.first] * front.stride + front.size;
@@ -184,26 +184,27 @@ void BlockLdlt::add_child(const Front& child, const Front& parent, std::size_t f
     }
 }
 
-/// Eliminates rows `begin` .. `end` - 1 among themselves; the rest follows by the factors that this leaves.
-void BlockLdlt::eliminate_panel(const Front& front, std::size_t begin, std::size_t end, double implied,
-                                Buffer& buffer) {
+/// Eliminates rows `begin` .. `end` - 1 among themselves, in their own columns and those up to `edge`; the
+/// rest of the front follows by the factors that this leaves.
+void BlockLdlt::eliminate_square(const Front& front, std::size_t begin, std::size_t end, std::size_t edge,
+                                 double implied, Buffer& buffer) {
     double* a = matrix_of(front);
     const std::size_t stride = front.stride;
     for (std::size_t c = begin; c < end; ++c) {
         double* pivot = a + c * stride;
         double* factors = buffer.factors.data() + (c - begin) * stride;
         if (!(pivot[c] > implied)) {
-            std::fill(pivot + c, pivot + stride, 0.0);
-            std::fill(factors + c, factors + stride, 0.0);
+            std::fill(pivot + c, pivot + edge, 0.0);
+            std::fill(factors + c, factors + edge, 0.0);
             continue;
         }
         const double inverse = 1.0 / pivot[c];
         pivot[c] = inverse;
-        for (std::size_t r = c + 1; r < front.size; ++r) factors[r] = pivot[r] * inverse;
+        for (std::size_t r = c + 1; r < edge; ++r) factors[r] = pivot[r] * inverse;
         for (std::size_t r = c + 1; r < end; ++r) {
             double* __restrict row = a + r * stride;
             const double f = factors[r];
-            for (std::size_t j = r; j < stride; ++j) row[j] -= f * pivot[j];
+            for (std::size_t j = r; j < edge; ++j) row[j] -= f * pivot[j];
         }
     }
 }
@@ -211,26 +212,34 @@ void BlockLdlt::eliminate_panel(const Front& front, std::size_t begin, std::size
 /// Large ones with the rows shared by the team.
 void BlockLdlt::factor_front(std::size_t f, const Source& source, std::span<const double> x, double implied,
                              Buffer& buffer, Team team) {
+    const BlockPattern::Front& shape = pattern_->fronts()[f];
     const Front& front = fronts_[f];
     const double size = static_cast<double>(front.size);
     if (size * size * static_cast<double>(front.own) < kShareRowsFrom) team = {};
-    const std::size_t chunk = padded(std::max<std::size_t>(front.size / (8 * team.size()), 8));
-    const auto share = [&](std::size_t begin, std::size_t end, const auto& work) {
-        team.run_blocks(end - begin, chunk,
+    const auto share = [&](std::size_t begin, std::size_t end, std::size_t unit, const auto& work) {
+        const std::size_t most = (end - begin) / (4 * team.size());
+        team.run_blocks(end - begin, std::max((most + unit - 1) / unit * unit, unit),
                         [&](std::size_t first, std::size_t last) { work(begin + first, begin + last); });
     };
-    share(0, front.size, [&](std::size_t first, std::size_t last) { clear_rows(front, first, last); });
-    start_front(f, source, x);
-    for (const std::size_t child : pattern_->children_of(pattern_->fronts()[f]))
-        share(fronts_[child].own, fronts_[child].size,
+    share(0, front.size, kFrontLanes,
+          [&](std::size_t first, std::size_t last) { clear_rows(front, first, last); });
+    share(shape.first, shape.last, 4,
+          [&](std::size_t first, std::size_t last) { start_rows(f, first, last, source, x); });
+    for (const std::size_t child : pattern_->children_of(shape))
+        share(fronts_[child].own, fronts_[child].size, kFrontLanes,
               [&](std::size_t first, std::size_t last) { add_child(fronts_[child], front, first, last); });
     const FrontKernel& kernel = front_kernel();
-    for (std::size_t begin = 0; begin < front.own; begin += kPanel) {
-        const std::size_t end = std::min(front.own, begin + kPanel);
-        eliminate_panel(front, begin, end, implied, buffer);
-        share(end, front.size, [&](std::size_t first, std::size_t last) {
-            kernel.subtract(matrix_of(front), front.stride, first, last, front.stride,
-                            matrix_of(front) + begin * front.stride, buffer.factors.data(), end - begin);
+    double* matrix = matrix_of(front);
+    double* factors = buffer.factors.data();
+    for (std::size_t begin = 0; begin < front.own; begin += kFrontPanel) {
+        const std::size_t end = std::min(front.own, begin + kFrontPanel), edge = padded(end);
+        eliminate_square(front, begin, end, edge, implied, buffer);
+        share(edge, front.stride, kFrontLanes, [&](std::size_t first, std::size_t last) {
+            kernel.eliminate(matrix, front.stride, begin, end - begin, first, last, factors);
+        });
+        share(end, front.size, kFrontLanes, [&](std::size_t first, std::size_t last) {
+            kernel.subtract(matrix, front.stride, first, last, front.stride, matrix + begin * front.stride,
+                            factors, end - begin);
         });
     }
 }

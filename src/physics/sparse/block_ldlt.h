@@ -68,12 +68,13 @@ class BlockLdlt {
     void find_runs(std::size_t f);
     void plan(const Team& team);
     void clear_rows(const Front& front, std::size_t first, std::size_t last);
-    void start_front(std::size_t f, const Source& source, std::span<const double> x);
+    void start_rows(std::size_t f, std::size_t first, std::size_t last, const Source& source,
+                    std::span<const double> x);
     void add_child(const Front& child, const Front& parent, std::size_t first, std::size_t last);
     void factor_front(std::size_t f, const Source& source, std::span<const double> x, double implied,
                       Buffer& buffer, Team team);
-    void eliminate_panel(const Front& front, std::size_t begin, std::size_t end, double implied,
-                         Buffer& buffer);
+    void eliminate_square(const Front& front, std::size_t begin, std::size_t end, std::size_t edge,
+                          double implied, Buffer& buffer);
     void solve_back(std::size_t f, std::span<double> x, Buffer& buffer) const;
     double* matrix_of(const Front& front) { return a_.data() + front.matrix_at; }
 

@@ -147,6 +147,26 @@ TEST(BlockLdlt, LeavesOutImpliedRows) {
     EXPECT_TRUE(x[2] == 0 || x[3] == 0);
 }
 
+/// The same within a front of many rows, of which it is one in the middle.
+TEST(BlockLdlt, LeavesOutImpliedRowsOfLargeFronts) {
+    std::mt19937 random(6);
+    Sample sample;
+    sample.sizes = {25, 25};
+    sample.links = {{0, 1}};
+    sample.finish(random);
+    const std::size_t n = sample.n();
+    for (std::size_t k = 0; k < n; ++k) sample.at(30, k) = sample.at(k, 30) = sample.at(4, k);
+    sample.at(30, 30) = sample.at(30, 4) = sample.at(4, 30) = sample.at(4, 4);
+    BlockLdlt matrix;
+    matrix.lay_out(sample.pattern, sample.sizes);
+    std::vector<double> b = right_side(n);
+    b[30] = b[4];
+    std::vector<double> x = b;
+    matrix.solve(sample, x, 1e-7, {});
+    EXPECT_LT(sample.residual(x, b), 1e-11);
+    EXPECT_TRUE(x[4] == 0 || x[30] == 0);
+}
+
 TEST(FrontKernel, EachInstructionSetHasTheSameBits) {
     std::vector<const FrontKernel*> kernels{any_front_kernel()};
 #if defined(__x86_64__)
@@ -166,6 +186,9 @@ TEST(FrontKernel, EachInstructionSetHasTheSameBits) {
     for (const FrontKernel* kernel : kernels) {
         std::vector<double> a = start;
         kernel->subtract(a.data(), kStride, 16, kRows, kStride, a.data(), factors.data(), 16);
+        std::vector<double> panel = factors;
+        kernel->eliminate(a.data(), kStride, 8, 11, 24, kStride, panel.data());
+        a.insert(a.end(), panel.begin(), panel.end());
         const double dot = kernel->dot(a.data(), factors.data(), kStride);
         if (first.empty()) first = a, first_dot = dot;
         EXPECT_EQ(a, first);
@@ -174,6 +197,9 @@ TEST(FrontKernel, EachInstructionSetHasTheSameBits) {
     double expected = start[20 * kStride + 30];
     for (std::size_t k = 0; k < 16; ++k) expected -= factors[k * kStride + 20] * start[k * kStride + 30];
     EXPECT_EQ(first[20 * kStride + 30], expected);
+    expected = start[9 * kStride + 30] - factors[9] * start[8 * kStride + 30];  // the second of the panel
+    EXPECT_EQ(first[9 * kStride + 30], expected);
+    EXPECT_EQ(first[(kRows + 1) * kStride + 30], expected * start[9 * kStride + 9]);
 }
 
 }  // namespace

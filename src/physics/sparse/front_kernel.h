@@ -9,6 +9,8 @@ namespace roboss {
 
 /// Rows are padded to this many entries.
 inline constexpr std::size_t kFrontLanes = 8;
+/// At most so many rows are eliminated before the rest of a front hears of them.
+inline constexpr std::size_t kFrontPanel = 16;
 
 struct FrontKernel {
     /// Rows `first` .. `last` - 1 of `matrix`, from their diagonal (and up to a vector before it) to `width`,
@@ -16,6 +18,12 @@ struct FrontKernel {
     /// the order of k.
     void (*subtract)(double* matrix, std::size_t stride, std::size_t first, std::size_t last,
                      std::size_t width, const double* pivots, const double* factors, std::size_t count);
+    /// Eliminates the `count` rows from `begin` on among themselves, in the columns `first` .. `last` - 1,
+    /// multiples of kFrontLanes beyond these rows; on the diagonal stand the reciprocals of the pivots, zero
+    /// for rows that others imply. Row k of `factors` has the factors of row begin + k; those of these
+    /// columns are written.
+    void (*eliminate)(double* matrix, std::size_t stride, std::size_t begin, std::size_t count,
+                      std::size_t first, std::size_t last, double* factors);
     /// The scalar product of arrays of a multiple of kFrontLanes entries.
     double (*dot)(const double* a, const double* b, std::size_t count);
 };

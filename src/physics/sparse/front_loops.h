@@ -48,6 +48,27 @@ void subtract_front(double* matrix, std::size_t stride, std::size_t first, std::
         subtract_rows<1>(matrix, stride, r, r / kFrontLanes * kFrontLanes, width, pivots, factors, count);
 }
 
+void eliminate_front(double* matrix, std::size_t stride, std::size_t begin, std::size_t count,
+                     std::size_t first, std::size_t last, double* factors) {
+    for (std::size_t j = first; j < last; j += kFrontLanes) {
+        FrontVector pivots[kFrontPanel];
+        for (std::size_t r = 0; r < count; ++r) {
+            double* row = matrix + (begin + r) * stride;
+            FrontVector x = {};
+            const double inverse = row[begin + r];
+            if (inverse != 0) {
+                load_front(row + j, x);
+                const double* factor = factors + begin + r;
+                for (std::size_t k = 0; k < r; ++k, factor += stride) x -= pivots[k] * *factor;
+            }
+            pivots[r] = x;
+            store_front(x, row + j);
+            x *= inverse;
+            store_front(x, factors + r * stride + j);
+        }
+    }
+}
+
 double dot_front(const double* a, const double* b, std::size_t count) {
     FrontVector sums = {};
     for (std::size_t i = 0; i < count; i += kFrontLanes) {
@@ -58,7 +79,7 @@ double dot_front(const double* a, const double* b, std::size_t count) {
     return ((sums[0] + sums[4]) + (sums[2] + sums[6])) + ((sums[1] + sums[5]) + (sums[3] + sums[7]));
 }
 
-const FrontKernel kFrontLoops{&subtract_front, &dot_front};
+const FrontKernel kFrontLoops{&subtract_front, &eliminate_front, &dot_front};
 
 }  // namespace
 }  // namespace roboss
