@@ -2,6 +2,7 @@
 // written order, so the same file gives the same triangles on every machine.
 #include "mesh/mesh_file.h"
 
+#include <assimp/defs.h>
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
 
@@ -13,18 +14,32 @@
 #include <limits>
 #include <map>
 #include <sstream>
+#include <stdexcept>
 #include <tuple>
 
 #include "math/aabb.h"
 #include "mesh/check_collada.h"
-#include "mesh/repair_collada.h"
+#include "mesh/collada_edit.h"
+
+namespace Assimp {
+
+/// Stands in for the function of assimp, which ends the program (Debian's build has its asserts on): a file
+/// that breaks an assertion is one that cannot be read.
+ASSIMP_API void aiAssertViolation(const char* expression, const char* file, int line);
+
+void aiAssertViolation(const char* expression, const char* /*file*/, int /*line*/) {
+    throw std::runtime_error("it does not keep to its format (" + std::string(expression) + ")");
+}
+
+}  // namespace Assimp
 
 namespace roboss {
 namespace {
 
 constexpr std::size_t kTrianglesMax = 2'000'000;
 constexpr std::uintmax_t kBytesMax = 512u << 20;
-constexpr double kFar = 1e6;  // m
+constexpr std::size_t kNamesMax = 2000;  // characters of a list in a message
+constexpr double kFar = 1e6;             // m
 constexpr std::string_view kKinds[] = {".stl", ".obj", ".dae", ".glb", ".gltf", ".fbx", ".ply"};
 
 std::string extension_of(const std::string& path) {
@@ -56,7 +71,7 @@ class Gatherer {
                          "Correct <submesh><name>."};
         std::vector<Corner>& corners = out_.corners;
         if (corners.empty()) return Error{"holds no triangles", "Export the mesh anew, with faces."};
-        if (corners.size() > 3 * kTrianglesMax)
+        if (is_too_much())
             return Error{"has more than two million triangles", "Give a coarser mesh for the collision."};
         if (request_.centre_submesh) centre();
         for (Corner& corner : corners) {
@@ -72,6 +87,8 @@ class Gatherer {
     }
 
   private:
+    bool is_too_much() const { return out_.corners.size() > 3 * kTrianglesMax; }
+
     void visit(const aiScene& scene, const aiNode& node, const aiMatrix4x4& X_parent) {
         const aiMatrix4x4 X = X_parent * node.mTransformation;
         for (unsigned i = 0; i < node.mNumMeshes; ++i) {
@@ -79,11 +96,13 @@ class Gatherer {
             const std::string name = mesh.mName.C_Str();
             const bool wanted = request_.submesh.empty() || name == request_.submesh ||
                                 request_.submesh == node.mName.C_Str();
-            names_ += (names_.empty() ? "'" : ", '") +
-                      (name.empty() ? std::string(node.mName.C_Str()) : name) + "'";
+            if (!wanted && names_.size() < kNamesMax)
+                names_ += (names_.empty() ? "'" : ", '") +
+                          (name.empty() ? std::string(node.mName.C_Str()) : name) + "'";
             if (!wanted) continue;
             found_ = true;
-            add(mesh, X);
+            // One mesh may stand in many nodes: what is too much is not gathered first.
+            if (!is_too_much()) add(mesh, X);
         }
         for (unsigned i = 0; i < node.mNumChildren; ++i) visit(scene, *node.mChildren[i], X);
     }
@@ -219,6 +238,54 @@ std::string remedy_for_kind(const std::string& extension) {
     return "Convert it to " + kinds + ".";
 }
 
+Error unreadable(const std::string& why) {
+    return {"is no mesh that can be read: " + why, "Export it anew."};
+}
+
+bool has_its_meshes(const aiScene& scene, const aiNode& node) {
+    for (unsigned i = 0; i < node.mNumMeshes; ++i)
+        if (node.mMeshes[i] >= scene.mNumMeshes) return false;
+    for (unsigned i = 0; i < node.mNumChildren; ++i)
+        if (!has_its_meshes(scene, *node.mChildren[i])) return false;
+    return true;
+}
+
+/// assimp's own steps take the indices of faces as they are, and so would the readers below.
+bool has_its_parts(const aiScene& scene) {
+    if (scene.mRootNode == nullptr || !has_its_meshes(scene, *scene.mRootNode)) return false;
+    for (unsigned m = 0; m < scene.mNumMeshes; ++m) {
+        const aiMesh& mesh = *scene.mMeshes[m];
+        for (unsigned f = 0; f < mesh.mNumFaces; ++f)
+            for (unsigned k = 0; k < mesh.mFaces[f].mNumIndices; ++k)
+                if (mesh.mFaces[f].mIndices[k] >= mesh.mNumVertices) return false;
+    }
+    return true;
+}
+
+Result<const aiScene*> triangulated(Assimp::Importer& importer) {
+    if (!has_its_parts(*importer.GetScene()))
+        return unreadable("a face has a vertex, or a node a mesh, that is not there");
+    const aiScene* scene = importer.ApplyPostProcessing(aiProcess_Triangulate);
+    if (scene == nullptr) return unreadable(importer.GetErrorString());
+    return scene;
+}
+
+Result<const aiScene*> open_collada(Assimp::Importer& importer, const std::string& path) {
+    importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, true);
+    importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_USE_COLLADA_NAMES, true);
+    const auto file = checked_collada(path, text_of(path));
+    if (!file) return file.error();
+    const auto read = [&] {
+        const std::string text = collada_text(*file.value());
+        return importer.ReadFileFromMemory(text.data(), text.size(), 0, "dae") != nullptr;
+    };
+    if (read()) return triangulated(importer);
+    const std::string why = importer.GetErrorString();
+    drop_collada_pictures(file.value()->root());
+    if (read()) return triangulated(importer);
+    return unreadable(why);
+}
+
 Result<const aiScene*> open_scene(Assimp::Importer& importer, const std::string& given) {
     const std::string path = straight(given);
     std::error_code error;
@@ -229,27 +296,12 @@ Result<const aiScene*> open_scene(Assimp::Importer& importer, const std::string&
     const std::string extension = extension_of(path);
     if (std::ranges::find(kKinds, extension) == std::end(kKinds))
         return Error{"is of a kind ('" + extension + "') that is not read", remedy_for_kind(extension)};
-    importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, true);
-    importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_USE_COLLADA_NAMES, true);
-    const auto read_collada = [&](const std::string& text) {
-        return importer.ReadFileFromMemory(text.data(), text.size(), aiProcess_Triangulate, "dae");
-    };
-    const std::string text = extension == ".dae" ? text_of(path) : std::string();
-    if (!text.empty())
-        if (const Result<> good = check_collada(given, text); !good) return good.error();
-    const std::string plain = text.empty() ? text : collada_at_rest(text);
-    const aiScene* scene =
-        plain.empty() ? importer.ReadFile(path, aiProcess_Triangulate) : read_collada(plain);
-    const std::string why = importer.GetErrorString();
-    if (scene == nullptr && !text.empty())
-        scene = read_collada(repaired_collada(plain.empty() ? text : plain));
-    if (scene == nullptr) return Error{"is no mesh that can be read: " + why, "Export it anew."};
-    return scene;
+    if (extension == ".dae") return open_collada(importer, given);
+    if (importer.ReadFile(path, 0) == nullptr) return unreadable(importer.GetErrorString());
+    return triangulated(importer);
 }
 
-}  // namespace
-
-Result<MeshFile> read_mesh(const MeshRequest& request) {
+Result<MeshFile> read_mesh_here(const MeshRequest& request) {
     Assimp::Importer importer;
     const Result<const aiScene*> scene = open_scene(importer, request.path);
     if (!scene) return scene.error();
@@ -260,7 +312,7 @@ Result<MeshFile> read_mesh(const MeshRequest& request) {
     return file;
 }
 
-Result<std::vector<MeshPart>> read_mesh_parts(const MeshRequest& request) {
+Result<std::vector<MeshPart>> read_mesh_parts_here(const MeshRequest& request) {
     Assimp::Importer importer;
     const Result<const aiScene*> scene = open_scene(importer, request.path);
     if (!scene) return scene.error();
@@ -275,6 +327,16 @@ Result<std::vector<MeshPart>> read_mesh_parts(const MeshRequest& request) {
     }
     if (parts.empty()) return no_area();
     return parts;
+}
+
+}  // namespace
+
+Result<MeshFile> read_mesh(const MeshRequest& request) {
+    return read_mesh_here(request);
+}
+
+Result<std::vector<MeshPart>> read_mesh_parts(const MeshRequest& request) {
+    return read_mesh_parts_here(request);
 }
 
 }  // namespace roboss
