@@ -234,6 +234,8 @@ TEST(CheckCollada, LinesBesideFacesMayHaveAWrongCount) {
     const std::string lines =
         "<lines count=\"7\"><input semantic=\"VERTEX\" source=\"#v\" offset=\"0\"/><p>0 1 1 2</p></lines>";
     expect_read(with(kTriangles, lines + kTriangles));
+    std::string many = with(kTriangles, lines + kTriangles);
+    expect_refused(14, many.replace(many.find("count=\"7\""), 9, "count=\"4294967295\""));
 }
 
 TEST(CheckCollada, NegativeIndicesAreTheFirst) {

@@ -175,7 +175,10 @@ std::optional<Faces::Count> Faces::faces_of(Node list, Count indices, Count each
     if (indices % each != 0)
         return refuse("<p> has " + std::to_string(indices) + " indices, which is no multiple of " +
                       std::to_string(each));
-    if (is(faces.element, {"lines"})) return faces.count == 0 ? 0 : points / 2;  // wrong counts are common
+    if (is(faces.element, {"lines"})) {  // wrong counts are common; room is made for as many
+        if (faces.count > points + 100'000) return refuse("<lines> announces far more lines than it has");
+        return faces.count == 0 ? 0 : points / 2;
+    }
     if (is(faces.element, {"polygons", "trifans"})) return 1;
     // From the corners of a strip it subtracts these, without asking.
     const Count fewest = is(faces.element, {"tristrips"}) ? 3 : is(faces.element, {"linestrips"}) ? 2 : 0;

@@ -1,9 +1,11 @@
 // The copy has the thread that called, and no other: `work` must not wait for other threads. It writes its
-// result into a pipe; a result is whole if the mark stands before it and its length is right.
+// result into a pipe; a result is whole if the mark stands before it and its length is right. glibc makes
+// memory allocation safe behind a fork.
 #include "mesh/run_apart.h"
 
 #include <fcntl.h>
 #include <poll.h>
+#include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -52,8 +54,9 @@ void write_all(int pipe, const void* data, std::size_t size) {
                                const ApartLimits& limits) {
     for (const int number : {SIGSEGV, SIGABRT, SIGBUS, SIGFPE, SIGILL, SIGINT, SIGTERM})
         (void)std::signal(number, SIG_DFL);
+    (void)prctl(PR_SET_PDEATHSIG, SIGKILL);  // it holds the locks and sockets of the program
     const int nowhere = open("/dev/null", O_WRONLY | O_CLOEXEC);
-    if (nowhere >= 0) (void)dup2(nowhere, STDERR_FILENO);  // last words of libraries
+    if (nowhere >= 0) (void)dup2(nowhere, STDERR_FILENO);  // what libraries say at their end
     limit_memory(limits.bytes);
     try {
         const std::string result = work();

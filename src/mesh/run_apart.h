@@ -14,7 +14,7 @@ struct ApartLimits {
 };
 
 /// What `work` gives, as it was made in a copy of this process that ends with it. Errors: the copy ended by
-/// itself, or passed a limit; the message goes on from the name of a file.
+/// itself, or passed a limit; the message continues the name of a file.
 Result<std::string> run_apart(const std::function<std::string()>& work, const ApartLimits& limits = {});
 
 }  // namespace roboss

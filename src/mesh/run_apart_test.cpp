@@ -85,6 +85,19 @@ TEST(MeshBytes, DamagedOnesAreAnError) {
     EXPECT_FALSE(mesh_from_bytes(mesh_to_bytes(wrong)).ok());
 }
 
+// assimp 5.2 writes to the material that does not exist.
+TEST(MeshFile, AnObjFileWhosePicturesHaveNoMaterialIsAnError) {
+    const test::Folder folder;
+    folder.write("a.mtl", "map_Kd a.png\n");
+    const std::string path =
+        folder.write("a.obj", "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl m\nf 1 2 3\n");
+    const auto file = read_mesh({path, {1, 1, 1}, "", false});
+    ASSERT_FALSE(file.ok());
+    EXPECT_EQ(file.error().code, "reader-ended");
+    folder.write("a.mtl", "newmtl m\nmap_Kd a.png\n");
+    EXPECT_TRUE(read_mesh({path, {1, 1, 1}, "", false}).ok());
+}
+
 // assimp 5.2 frees a picture twice whose text is no picture.
 TEST(MeshFile, AnFbxFileThatEndsItsReaderIsAnError) {
     const test::Folder folder;
