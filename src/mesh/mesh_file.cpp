@@ -334,10 +334,26 @@ Result<std::vector<MeshPart>> read_mesh_parts_here(const MeshRequest& request) {
     return parts;
 }
 
+/// assimp takes every line of an OBJ file that begins with m for one that names its materials.
+bool names_materials(const std::string& obj) {
+    std::size_t at = 0;
+    while (at < obj.size()) {
+        at = obj.find_first_not_of(" \t\r\n", at);
+        if (at == obj.npos) return false;
+        if (obj[at] == 'm' || obj[at] == '\0') return true;
+        at = obj.find_first_of("\r\n", at);
+    }
+    return false;
+}
+
 /// Damaged files of other kinds make assimp 5.2 write beyond its arrays, free twice, or not end: they are
-/// read in a process of its own. COLLADA is checked before, and STL has shown nothing of the kind.
+/// read in a process of its own. COLLADA is checked before; STL, and OBJ without materials, have shown
+/// nothing of the kind.
 bool is_read_apart(const std::string& path) {
     const std::string extension = extension_of(path);
+    std::error_code error;
+    if (extension == ".obj")
+        return std::filesystem::file_size(path, error) <= kBytesMax && names_materials(text_of(path));
     return extension != ".dae" && extension != ".stl";
 }
 
