@@ -2,6 +2,7 @@
 // written order, so the same file gives the same triangles on every machine.
 #include "mesh/mesh_file.h"
 
+#include <assimp/defs.h>
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
 
@@ -13,18 +14,35 @@
 #include <limits>
 #include <map>
 #include <sstream>
+#include <stdexcept>
 #include <tuple>
 
 #include "math/aabb.h"
 #include "mesh/check_collada.h"
-#include "mesh/repair_collada.h"
+#include "mesh/check_ply.h"
+#include "mesh/collada_edit.h"
+#include "mesh/mesh_bytes.h"
+#include "mesh/run_apart.h"
+
+namespace Assimp {
+
+/// Stands in for the function of assimp, which ends the program (Debian's build has its asserts on): a file
+/// that breaks an assertion is one that cannot be read.
+ASSIMP_API void aiAssertViolation(const char* expression, const char* file, int line);
+
+void aiAssertViolation(const char* expression, const char* /*file*/, int /*line*/) {
+    throw std::runtime_error("it does not keep to its format (" + std::string(expression) + ")");
+}
+
+}  // namespace Assimp
 
 namespace roboss {
 namespace {
 
 constexpr std::size_t kTrianglesMax = 2'000'000;
 constexpr std::uintmax_t kBytesMax = 512u << 20;
-constexpr double kFar = 1e6;  // m
+constexpr std::size_t kNamesMax = 2000;  // characters of a list in a message
+constexpr double kFar = 1e6;             // m
 constexpr std::string_view kKinds[] = {".stl", ".obj", ".dae", ".glb", ".gltf", ".fbx", ".ply"};
 
 std::string extension_of(const std::string& path) {
@@ -56,7 +74,7 @@ class Gatherer {
                          "Correct <submesh><name>."};
         std::vector<Corner>& corners = out_.corners;
         if (corners.empty()) return Error{"holds no triangles", "Export the mesh anew, with faces."};
-        if (corners.size() > 3 * kTrianglesMax)
+        if (is_too_much())
             return Error{"has more than two million triangles", "Give a coarser mesh for the collision."};
         if (request_.centre_submesh) centre();
         for (Corner& corner : corners) {
@@ -72,6 +90,8 @@ class Gatherer {
     }
 
   private:
+    bool is_too_much() const { return out_.corners.size() > 3 * kTrianglesMax; }
+
     void visit(const aiScene& scene, const aiNode& node, const aiMatrix4x4& X_parent) {
         const aiMatrix4x4 X = X_parent * node.mTransformation;
         for (unsigned i = 0; i < node.mNumMeshes; ++i) {
@@ -79,11 +99,13 @@ class Gatherer {
             const std::string name = mesh.mName.C_Str();
             const bool wanted = request_.submesh.empty() || name == request_.submesh ||
                                 request_.submesh == node.mName.C_Str();
-            names_ += (names_.empty() ? "'" : ", '") +
-                      (name.empty() ? std::string(node.mName.C_Str()) : name) + "'";
+            if (!wanted && names_.size() < kNamesMax)
+                names_ += (names_.empty() ? "'" : ", '") +
+                          (name.empty() ? std::string(node.mName.C_Str()) : name) + "'";
             if (!wanted) continue;
             found_ = true;
-            add(mesh, X);
+            // One mesh may stand in many nodes: what is too much is not gathered first.
+            if (!is_too_much()) add(mesh, X);
         }
         for (unsigned i = 0; i < node.mNumChildren; ++i) visit(scene, *node.mChildren[i], X);
     }
@@ -219,6 +241,54 @@ std::string remedy_for_kind(const std::string& extension) {
     return "Convert it to " + kinds + ".";
 }
 
+Error unreadable(const std::string& why) {
+    return {"is no mesh that can be read: " + why, "Export it anew."};
+}
+
+bool has_its_meshes(const aiScene& scene, const aiNode& node) {
+    for (unsigned i = 0; i < node.mNumMeshes; ++i)
+        if (node.mMeshes[i] >= scene.mNumMeshes) return false;
+    for (unsigned i = 0; i < node.mNumChildren; ++i)
+        if (!has_its_meshes(scene, *node.mChildren[i])) return false;
+    return true;
+}
+
+/// assimp's own steps take the indices of faces as they are, and so would the readers below.
+bool has_its_parts(const aiScene& scene) {
+    if (scene.mRootNode == nullptr || !has_its_meshes(scene, *scene.mRootNode)) return false;
+    for (unsigned m = 0; m < scene.mNumMeshes; ++m) {
+        const aiMesh& mesh = *scene.mMeshes[m];
+        for (unsigned f = 0; f < mesh.mNumFaces; ++f)
+            for (unsigned k = 0; k < mesh.mFaces[f].mNumIndices; ++k)
+                if (mesh.mFaces[f].mIndices[k] >= mesh.mNumVertices) return false;
+    }
+    return true;
+}
+
+Result<const aiScene*> triangulated(Assimp::Importer& importer) {
+    if (!has_its_parts(*importer.GetScene()))
+        return unreadable("a face has a vertex, or a node a mesh, that is not there");
+    const aiScene* scene = importer.ApplyPostProcessing(aiProcess_Triangulate);
+    if (scene == nullptr) return unreadable(importer.GetErrorString());
+    return scene;
+}
+
+Result<const aiScene*> open_collada(Assimp::Importer& importer, const std::string& path) {
+    importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, true);
+    importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_USE_COLLADA_NAMES, true);
+    const auto file = checked_collada(path, text_of(path));
+    if (!file) return file.error();
+    const auto read = [&] {
+        const std::string text = collada_text(*file.value());
+        return importer.ReadFileFromMemory(text.data(), text.size(), 0, "dae") != nullptr;
+    };
+    if (read()) return triangulated(importer);
+    const std::string why = importer.GetErrorString();
+    drop_collada_pictures(file.value()->root());
+    if (read()) return triangulated(importer);
+    return unreadable(why);
+}
+
 Result<const aiScene*> open_scene(Assimp::Importer& importer, const std::string& given) {
     const std::string path = straight(given);
     std::error_code error;
@@ -229,27 +299,14 @@ Result<const aiScene*> open_scene(Assimp::Importer& importer, const std::string&
     const std::string extension = extension_of(path);
     if (std::ranges::find(kKinds, extension) == std::end(kKinds))
         return Error{"is of a kind ('" + extension + "') that is not read", remedy_for_kind(extension)};
-    importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, true);
-    importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_USE_COLLADA_NAMES, true);
-    const auto read_collada = [&](const std::string& text) {
-        return importer.ReadFileFromMemory(text.data(), text.size(), aiProcess_Triangulate, "dae");
-    };
-    const std::string text = extension == ".dae" ? text_of(path) : std::string();
-    if (!text.empty())
-        if (const Result<> good = check_collada(given, text); !good) return good.error();
-    const std::string plain = text.empty() ? text : collada_at_rest(text);
-    const aiScene* scene =
-        plain.empty() ? importer.ReadFile(path, aiProcess_Triangulate) : read_collada(plain);
-    const std::string why = importer.GetErrorString();
-    if (scene == nullptr && !text.empty())
-        scene = read_collada(repaired_collada(plain.empty() ? text : plain));
-    if (scene == nullptr) return Error{"is no mesh that can be read: " + why, "Export it anew."};
-    return scene;
+    if (extension == ".dae") return open_collada(importer, given);
+    if (extension == ".ply")
+        if (const Result<> good = check_ply(text_of(path)); !good) return good.error();
+    if (importer.ReadFile(path, 0) == nullptr) return unreadable(importer.GetErrorString());
+    return triangulated(importer);
 }
 
-}  // namespace
-
-Result<MeshFile> read_mesh(const MeshRequest& request) {
+Result<MeshFile> read_mesh_here(const MeshRequest& request) {
     Assimp::Importer importer;
     const Result<const aiScene*> scene = open_scene(importer, request.path);
     if (!scene) return scene.error();
@@ -260,7 +317,7 @@ Result<MeshFile> read_mesh(const MeshRequest& request) {
     return file;
 }
 
-Result<std::vector<MeshPart>> read_mesh_parts(const MeshRequest& request) {
+Result<std::vector<MeshPart>> read_mesh_parts_here(const MeshRequest& request) {
     Assimp::Importer importer;
     const Result<const aiScene*> scene = open_scene(importer, request.path);
     if (!scene) return scene.error();
@@ -275,6 +332,45 @@ Result<std::vector<MeshPart>> read_mesh_parts(const MeshRequest& request) {
     }
     if (parts.empty()) return no_area();
     return parts;
+}
+
+/// assimp takes every line of an OBJ file that begins with m for one that names its materials.
+bool names_materials(const std::string& obj) {
+    std::size_t at = 0;
+    while (at < obj.size()) {
+        at = obj.find_first_not_of(" \t\r\n", at);
+        if (at == obj.npos) return false;
+        if (obj[at] == 'm' || obj[at] == '\0') return true;
+        at = obj.find_first_of("\r\n", at);
+    }
+    return false;
+}
+
+/// Damaged files of other kinds make assimp 5.2 write beyond its arrays, free twice, or not end: they are
+/// read in a process of its own. COLLADA is checked before; STL, and OBJ without materials, have shown
+/// nothing of the kind.
+bool is_read_apart(const std::string& path) {
+    const std::string extension = extension_of(path);
+    std::error_code error;
+    if (extension == ".obj")
+        return std::filesystem::file_size(path, error) <= kBytesMax && names_materials(text_of(path));
+    return extension != ".dae" && extension != ".stl";
+}
+
+}  // namespace
+
+Result<MeshFile> read_mesh(const MeshRequest& request) {
+    if (!is_read_apart(request.path)) return read_mesh_here(request);
+    const auto bytes = run_apart([&] { return mesh_to_bytes(read_mesh_here(request)); });
+    if (!bytes) return bytes.error();
+    return mesh_from_bytes(bytes.value());
+}
+
+Result<std::vector<MeshPart>> read_mesh_parts(const MeshRequest& request) {
+    if (!is_read_apart(request.path)) return read_mesh_parts_here(request);
+    const auto bytes = run_apart([&] { return parts_to_bytes(read_mesh_parts_here(request)); });
+    if (!bytes) return bytes.error();
+    return parts_from_bytes(bytes.value());
 }
 
 }  // namespace roboss

@@ -16,20 +16,18 @@ namespace roboss::xml {
 
 namespace {
 
-constexpr int kDeepest = 100;  // tinyxml2, inside libsdformat, refuses more; no world comes near it
-
 bool is_space(char c) {
     return c == ' ' || c == '\t' || c == '\n' || c == '\r';
 }
 
 /// The first node that lies too deep for recursive reading, if any.
-pugi::xml_node too_deep(pugi::xml_node root) {
+pugi::xml_node too_deep(pugi::xml_node root, int deepest) {
     int depth = 0;
     pugi::xml_node node = root;
     while (node) {
         if (node.first_child()) {
             node = node.first_child();
-            if (++depth > kDeepest) return node;
+            if (++depth > deepest) return node;
             continue;
         }
         while (node != root && !node.next_sibling()) {
@@ -149,15 +147,16 @@ std::unique_ptr<SourceFile> SourceFile::read(const std::string& path, Diagnostic
 }
 
 std::unique_ptr<SourceFile> SourceFile::from_text(const std::string& path, std::string text,
-                                                  std::vector<int> lines, Diagnostics& diagnostics) {
+                                                  std::vector<int> lines, Diagnostics& diagnostics,
+                                                  int deepest) {
     auto file = std::make_unique<SourceFile>();
     file->path_ = path;
     file->line_map_ = std::move(lines);
-    if (!file->parse(std::move(text), diagnostics)) return nullptr;
+    if (!file->parse(std::move(text), diagnostics, deepest)) return nullptr;
     return file;
 }
 
-bool SourceFile::parse(std::string text, Diagnostics& diagnostics) {
+bool SourceFile::parse(std::string text, Diagnostics& diagnostics, int deepest) {
     line_starts_.push_back(0);
     for (std::size_t at = text.find('\n'); at != std::string::npos; at = text.find('\n', at + 1)) {
         line_starts_.push_back(at + 1);
@@ -186,9 +185,9 @@ bool SourceFile::parse(std::string text, Diagnostics& diagnostics) {
                           "Check that every tag that is opened is closed, and that the file is complete.");
         return false;
     }
-    if (const auto node = too_deep(root())) {
+    if (const auto node = too_deep(root(), deepest)) {
         diagnostics.error({path_, line(node.parent())}, "too-deep",
-                          "elements are nested more than " + std::to_string(kDeepest) + " deep",
+                          "elements are nested more than " + std::to_string(deepest) + " deep",
                           "Flatten the file; nested models rarely need more than a few levels.");
         return false;
     }

@@ -23,13 +23,18 @@ std::string trimmed(std::string_view text);
 
 class SourceFile {
   public:
+    /// tinyxml2, inside libsdformat, refuses more; no world comes near it.
+    static constexpr int kDeepestWorld = 100;
+
     /// Reads and parses a file; a malformed or missing one gives an error and nullptr.
     static std::unique_ptr<SourceFile> read(const std::string& path, Diagnostics& diagnostics);
 
     /// Parses text that was made from `path` (an SDF from a URDF); `lines[i]` is the line of `path` behind
-    /// line i + 1 of the text. Without `lines` they are the same.
+    /// line i + 1 of the text. Without `lines` they are the same. Elements that are nested deeper than
+    /// `deepest` are an error.
     static std::unique_ptr<SourceFile> from_text(const std::string& path, std::string text,
-                                                 std::vector<int> lines, Diagnostics& diagnostics);
+                                                 std::vector<int> lines, Diagnostics& diagnostics,
+                                                 int deepest = kDeepestWorld);
 
     const std::string& path() const { return path_; }
     std::string folder() const;
@@ -39,7 +44,7 @@ class SourceFile {
     SourceLocation where(pugi::xml_node node) const { return {path_, line(node)}; }
 
   private:
-    bool parse(std::string text, Diagnostics& diagnostics);
+    bool parse(std::string text, Diagnostics& diagnostics, int deepest);
     int line_of_offset(std::ptrdiff_t offset) const;
 
     std::string path_;

@@ -1,0 +1,20 @@
+// Runs a reader of files that may be damaged in a process of its own: whatever it does, this one goes on.
+#pragma once
+
+#include <functional>
+#include <string>
+
+#include "core/result.h"
+
+namespace roboss {
+
+struct ApartLimits {
+    int seconds = 60;
+    std::size_t bytes = std::size_t{4} << 30;  // of memory, beyond what this process has
+};
+
+/// What `work` gives, as it was made in a copy of this process that ends with it. Errors: the copy ended by
+/// itself, or passed a limit; the message continues the name of a file.
+Result<std::string> run_apart(const std::function<std::string()>& work, const ApartLimits& limits = {});
+
+}  // namespace roboss
