@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <string_view>
+#include <utility>
 
 #include <support/robots.h>
 #include <support/simulation.h>
@@ -226,14 +227,14 @@ TEST(AccuracySettings, PilesKeepMomentumAtEverySetting) {
 }
 
 TEST(AccuracySettings, ACollapsedPileComesToRestAtEverySetting) {
-    for (const char* setting : {"fast", "standard"}) {
+    for (const auto& [setting, most] : {std::pair("fast", 4e-4), std::pair("standard", 1e-9)}) {
         Simulation sim(collapse(named(setting)));
         sim.run(4);
         double fastest = 0;
         for (const RobotState& state : sim.states)
             for (const double v : state.v) fastest = std::fmax(fastest, std::fabs(v));
         tell(std::string(setting) + ": fastest, m/s or rad/s", fastest);
-        EXPECT_LT(fastest, 1e-4) << setting;
+        EXPECT_LT(fastest, most) << setting;
     }
 }
 

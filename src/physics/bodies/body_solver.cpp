@@ -28,17 +28,9 @@ int sweeps_to_start(std::size_t bodies) {
     return bodies < 64 ? 40 : 80;
 }
 
-/// For velocities that no step of Newton's method follows.
-SweepPlan plan_alone(std::size_t bodies) {
-    const int most = bodies < 8 ? 12 : 40;
-    return {.most = most, .most_to_settle = most, .settle_tolerance = 1e-5};
-}
-/// For displacements likewise: what they leave over is corrected in the next tick.
-constexpr SweepPlan kDisplacedAlone{.most = 10, .start_tolerance = 1e-5};
-
-/// Whether sweeps are the solution, for velocities and displacements.
-bool sweeps_alone(const Accuracy& accuracy, std::size_t bodies) {
-    return bodies > 1 && sweeps_suffice(accuracy);
+/// Where no step of Newton's method follows.
+int sweeps_alone(std::size_t bodies) {
+    return bodies < 8 ? 12 : 40;
 }
 
 }  // namespace
@@ -49,8 +41,8 @@ bool BodySolver::solve(const BodyPart& part, std::vector<double>& v, SolveReport
     position_ = part.problem.position;
     iterations_ = 0, swept_ = analysed_ = false;
     take(part, v);
-    const bool alone = sweeps_alone(accuracy, island_.bodies.size());
-    fill_ = sweeps_may_settle(accuracy) && !alone ? find_fill() : Fill::kLittle;
+    const bool by_sweeps_alone = !position_ && sweeps_suffice(accuracy);
+    fill_ = sweeps_may_settle(accuracy) && !by_sweeps_alone ? find_fill() : Fill::kLittle;
     bool balances = position_ ? settle_displacement(part) : settle_velocities(accuracy);
     if (!balances) {
         prepare_factor();
@@ -211,46 +203,27 @@ void BodySolver::take_swept() {
 /// The velocities by sweeps, if these are the solution.
 bool BodySolver::settle_velocities(const Accuracy& accuracy) {
     const std::size_t bodies = island_.bodies.size();
-    if (sweeps_alone(accuracy, bodies)) return settle_alone(plan_alone(bodies));
-    residual_ = kernel_.balance(island_);
-    if (bodies == 1 || residual_ <= newton::kRoughly) return false;
-    const int most = sweeps_to_start(bodies);
+    const bool alone = bodies > 1 && sweeps_suffice(accuracy);
+    if (!alone) {
+        residual_ = kernel_.balance(island_);
+        if (bodies == 1 || residual_ <= newton::kRoughly) return false;
+    }
+    const int most = alone ? sweeps_alone(bodies) : sweeps_to_start(bodies);
     keep_start();
-    const SweepReport report =
-        sweep(bodies >= kPile ? pile_plan(accuracy, most, fill_) : SweepPlan{.most = most});
-    if (!swept_ || !(report.settled || fill_ == Fill::kMuch)) return false;
+    const bool is_pile = !alone && bodies >= kPile;
+    const SweepReport report = sweep(is_pile ? pile_plan(accuracy, most, fill_) : SweepPlan{.most = most});
+    if (!swept_ || !(alone || report.settled || fill_ == Fill::kMuch)) return false;
     take_swept();
     iterations_ += report.iterations();
     return true;
 }
 
-/// What the sweeps find is the solution, however far they come.
-bool BodySolver::settle_alone(const SweepPlan& plan) {
-    keep_start();
-    iterations_ += sweep(plan).iterations();
-    if (swept_) take_swept();
-    return swept_;
-}
-
-/// Likewise the displacement of a pile.
+/// Likewise the displacement of a pile, with a tighter tolerance where a point is left deep.
 bool BodySolver::settle_displacement(const BodyPart& part) {
-    const Accuracy& accuracy = part.problem.accuracy;
-    const std::size_t bodies = island_.bodies.size();
-    const bool alone = sweeps_alone(accuracy, bodies);
-    if (!alone && (bodies < kPile || !sweeps_may_settle(accuracy))) return false;
-    if (!alone && fill_ == Fill::kLittle && hardly_moves()) return false;
-    if (alone ? settle_alone(kDisplacedAlone) : settle_apart(accuracy)) return true;
-    if (swept_) return_to_start();
-    swept_ = false;
-    for (std::size_t c = 0; c < island_.points.size(); ++c)
-        island_.points[c].swept_n = part.problem.rows.contacts[part.contacts[c]].normal.impulse;
-    return false;
-}
-
-/// With a tighter tolerance where a point is left deep.
-bool BodySolver::settle_apart(const Accuracy& accuracy) {
     constexpr int kRounds = 3;
-    SweepPlan plan = pile_plan(accuracy, 1, fill_);
+    SweepPlan plan = pile_plan(part.problem.accuracy, 1, fill_);
+    if (island_.bodies.size() < kPile || !sweeps_may_settle(part.problem.accuracy)) return false;
+    if (fill_ == Fill::kLittle && hardly_moves()) return false;
     keep_start();
     bool settled = true;
     for (int round = 0; round < kRounds && settled; ++round) {
@@ -263,9 +236,15 @@ bool BodySolver::settle_apart(const Accuracy& accuracy) {
         }
         plan.tighten(1e-2);
     }
-    if (!swept_ || fill_ == Fill::kLittle) return false;
-    take_swept();
-    return true;
+    if (swept_ && fill_ == Fill::kMuch) {
+        take_swept();
+        return true;
+    }
+    if (swept_) return_to_start();
+    swept_ = false;
+    for (std::size_t c = 0; c < island_.points.size(); ++c)
+        island_.points[c].swept_n = part.problem.rows.contacts[part.contacts[c]].normal.impulse;
+    return false;
 }
 
 /// A quick look at whether SweepProgress would find too little motion.

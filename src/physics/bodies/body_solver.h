@@ -52,8 +52,6 @@ class BodySolver {
     void start();
     bool take_first_step();
     SweepReport sweep(const SweepPlan& plan);
-    bool settle_alone(const SweepPlan& plan);
-    bool settle_apart(const Accuracy& accuracy);
     void take_swept();
     bool settle_velocities(const Accuracy& accuracy);
     bool settle_displacement(const BodyPart& part);

@@ -7,7 +7,6 @@
 #include <type_traits>
 
 #include "physics/solver/rows.h"
-#include "physics/solver/sweeps_alone.h"
 
 namespace roboss {
 
@@ -193,15 +192,15 @@ bool set_softness(const ContactT<T>& c, const Softness& soft, double dt, double 
 /// Targets of the normal. The load of the last tick is where the row starts from (a proximal step): a contact
 /// at rest carries it without any velocity, however compliant the row. True if velocity and displacement
 /// differ. `bounce_compliance`: of what hits and bounces, `deep_compliance`: of what corrects deep
-/// penetration. `slop`: m, penetration that is not corrected.
+/// penetration.
 template <class T>
 MaskOf<T> set_normal(const ContactT<T>& c, const SurfacePair& surface, const T& approach, const T& gravity_n,
                      double dt, const T& compliance, double bounce_compliance, double deep_compliance,
-                     double slop, BoundedRowT<T>& row) {
+                     BoundedRowT<T>& row) {
     row.compliance = compliance;
     const T closing = select(c.gap > T(0), -c.gap / T(dt), T(0));
-    const MaskOf<T> corrects = c.gap < T(-slop);
-    const T depth = -c.gap - slop, shallow = smaller(depth, T(kDeep));
+    const MaskOf<T> corrects = c.gap < T(-surface.slop);
+    const T depth = -c.gap - surface.slop, shallow = smaller(depth, T(kDeep));
     const T recovered = kCorrectionShare * shallow + kDeepCorrectionShare * (depth - shallow);
     const T correction = smaller(recovered / T(dt), T(surface.correction_speed));
     const MaskOf<T> deep = depth > T(kDeep);
@@ -307,8 +306,7 @@ MaskOf<T> add_contact_row(const Model& model, const ContactT<T>& c, const Surfac
     if (!row.soft)
         split = contact::set_normal(c, surface, approach, gravity_n, dt, compliance,
                                     inverse_effective_mass * bounce_compliance<T>(model.accuracy),
-                                    inverse_effective_mass * contact::kDeepCompliance,
-                                    slop_with(model.accuracy, surface.slop), row.normal);
+                                    inverse_effective_mass * contact::kDeepCompliance, row.normal);
     row.slip.coefficient = surface.friction.mu;
     row.slip.bound = surface.friction.mu * c.impulse;
     const T slip_compliance = T(inverse_effective_mass * friction_compliance<T>(model.accuracy));

@@ -1,7 +1,5 @@
-// What `--accuracy fast` leaves out where many touch (decision 0034).
+// What `--accuracy fast` leaves out where many touch.
 #pragma once
-
-#include <algorithm>
 
 #include "model/model.h"
 
@@ -13,12 +11,6 @@ namespace roboss {
 /// contacts: bodies overlap and creep a little more.
 inline bool sweeps_suffice(const Accuracy& accuracy) {
     return accuracy.tolerance >= 1e-6;
-}
-
-/// m, the penetration that a rigid contact leaves alone. `slop`: what its surfaces say.
-inline double slop_with(const Accuracy& accuracy, double slop) {
-    constexpr double kLoose = 1e-4;
-    return sweeps_suffice(accuracy) ? std::max(slop, kLoose) : slop;
 }
 
 }  // namespace roboss
