@@ -149,3 +149,30 @@ def test_a_model_with_errors_is_left_out_or_refused():
         assert roboss.load(text).robots == ("ball",)
     with pytest.raises(roboss.WorldError):
         roboss.load(text, strict=True)
+
+
+CUBE = """<COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema" version="1.4.1">
+<asset><unit meter="1"/><up_axis>Z_UP</up_axis></asset><library_geometries><geometry id="g"><mesh><source id="s">
+<float_array id="a" count="12">0 0 0 1 0 0 0 1 0 0 0 1</float_array><technique_common>
+<accessor source="#a" count="4" stride="3"><param name="X" type="float"/><param name="Y" type="float"/>
+<param name="Z" type="float"/></accessor></technique_common></source>
+<vertices id="v"><input semantic="POSITION" source="#s"/></vertices>
+<triangles count="4"><input semantic="VERTEX" source="#v" offset="0"/><p>0 2 1 0 1 3 0 3 2 1 2 3</p></triangles>
+</mesh></geometry></library_geometries><library_visual_scenes><visual_scene id="vs"><node id="n">{}
+<instance_geometry url="#g"/></node></visual_scene></library_visual_scenes>
+<scene><instance_visual_scene url="#vs"/></scene></COLLADA>"""
+
+SCENERY = """<sdf version="1.9"><world name="w"><model name="m"><static>true</static><link name="l">
+<collision name="c"><geometry><mesh><uri>cube.dae</uri></mesh></geometry></collision></link></model></world></sdf>"""
+
+
+def test_a_mesh_that_breaks_an_assertion_of_its_reader(tmp_path):
+    """assimp ends the program that it is in, unless its assertions are replaced or it is read apart."""
+    world = tmp_path / "world.sdf"
+    world.write_text(SCENERY)
+    (tmp_path / "cube.dae").write_text(CUBE.format(""))
+    roboss.load(world)
+    (tmp_path / "cube.dae").write_text(CUBE.format("<skew>1 2 3 4 5 6 7</skew>"))
+    with pytest.raises(roboss.WorldError) as error:
+        roboss.load(world)
+    assert "cube.dae" in str(error.value)

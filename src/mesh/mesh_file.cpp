@@ -5,6 +5,7 @@
 #include <assimp/defs.h>
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
+#include <dlfcn.h>
 
 #include <algorithm>
 #include <assimp/Importer.hpp>
@@ -346,10 +347,19 @@ bool names_materials(const std::string& obj) {
     return false;
 }
 
+/// Whether the dynamic linker takes the function above in assimp, too. Where RoBOSS is in a library that
+/// hides it, as Python's module, assimp has its own.
+bool outlives_assertions() {
+    const auto here = reinterpret_cast<void*>(&Assimp::aiAssertViolation);
+    static const bool is_taken = dlsym(RTLD_DEFAULT, "_ZN6Assimp17aiAssertViolationEPKcS1_i") == here;
+    return is_taken;
+}
+
 /// Damaged files of other kinds make assimp 5.2 write beyond its arrays, free twice, or not end: they are
 /// read in a process of its own. COLLADA is checked before; STL, and OBJ without materials, have shown
-/// nothing of the kind.
+/// nothing of the kind: with assertions that are errors, they are read here.
 bool is_read_apart(const std::string& path) {
+    if (!outlives_assertions()) return true;
     const std::string extension = extension_of(path);
     std::error_code error;
     if (extension == ".obj")

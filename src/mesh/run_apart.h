@@ -9,12 +9,14 @@
 namespace roboss {
 
 struct ApartLimits {
-    int seconds = 60;
+    int seconds = 600;                         // while this process is not stopped
     std::size_t bytes = std::size_t{4} << 30;  // of memory, beyond what this process has
+    int cpu_seconds = 60;
 };
 
 /// What `work` gives, as it was made in a copy of this process that ends with it. Errors: the copy ended by
-/// itself, or passed a limit; the message continues the name of a file.
+/// itself (reader-ended), passed a limit (reader-limit), was ended by a signal from outside (reader-stopped),
+/// or could not be made (reader-not-started); the message continues the name of a file.
 Result<std::string> run_apart(const std::function<std::string()>& work, const ApartLimits& limits = {});
 
 }  // namespace roboss

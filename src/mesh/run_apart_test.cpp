@@ -2,10 +2,17 @@
 #include "mesh/run_apart.h"
 
 #include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
+#include <atomic>
+#include <cerrno>
+#include <chrono>
 #include <csignal>
+#include <cstring>
 #include <stdexcept>
+#include <thread>
 #include <vector>
 
 #include <support/folder.h>
@@ -15,6 +22,8 @@
 
 namespace roboss {
 namespace {
+
+constexpr std::size_t kGiB = std::size_t{1} << 30;
 
 TEST(RunApart, GivesWhatTheWorkGives) {
     for (const std::size_t size : {0, 1, 100'000, 3'000'000}) {
@@ -29,7 +38,6 @@ TEST(RunApart, AProcessThatEndsIsAnError) {
         [] { return _exit(0), ""; },
         [] { return raise(SIGSEGV), ""; },
         [] { return raise(SIGABRT), ""; },
-        [] { return raise(SIGKILL), ""; },
         []() -> std::string { throw std::runtime_error("of no avail"); },
     };
     for (const auto& work : endings) {
@@ -40,15 +48,103 @@ TEST(RunApart, AProcessThatEndsIsAnError) {
     }
 }
 
+TEST(RunApart, AProcessThatIsEndedFromOutsideIsNoDamagedFile) {
+    for (const int signal : {SIGINT, SIGTERM, SIGKILL}) {
+        const auto result = run_apart([&] { return raise(signal), ""; });
+        ASSERT_FALSE(result.ok());
+        EXPECT_EQ(result.error().code, "reader-stopped");
+        EXPECT_EQ(result.error().text().find("damaged"), std::string::npos);
+    }
+}
+
 TEST(RunApart, ALoopWithoutEndIsAnError) {
-    const auto result = run_apart([] { return pause(), ""; }, {1, std::size_t{1} << 30});
-    ASSERT_FALSE(result.ok());
-    EXPECT_NE(result.error().message.find("1 s"), std::string::npos);
+    const auto idle = run_apart([] { return pause(), ""; }, {1, kGiB, 60});
+    ASSERT_FALSE(idle.ok());
+    EXPECT_EQ(idle.error().code, "reader-limit");
+    EXPECT_NE(idle.error().message.find("more than 1 s"), std::string::npos);
+    const auto busy = run_apart(
+        [] {
+            for (volatile int i = 0;;) i = 1 - i;
+            return "";
+        },
+        {60, kGiB, 1});
+    ASSERT_FALSE(busy.ok());
+    EXPECT_EQ(busy.error().code, "reader-limit");
+    EXPECT_NE(busy.error().message.find("1 s of computing time"), std::string::npos);
 }
 
 TEST(RunApart, TooMuchMemoryIsAnError) {
-    const auto result = run_apart([] { return std::string(std::size_t{3} << 30, 'x'); }, {60, 1u << 30});
-    EXPECT_FALSE(result.ok());
+    const auto work = [] {
+        try {
+            return std::string(3 * kGiB, 'x');
+        } catch (const std::exception& error) {  // as assimp does
+            return std::string(error.what());
+        }
+    };
+    const auto result = run_apart(work, {60, kGiB});
+    ASSERT_FALSE(result.ok());
+    EXPECT_EQ(result.error().code, "reader-limit");
+    EXPECT_NE(result.error().message.find("memory"), std::string::npos);
+}
+
+TEST(RunApart, TheResultCountsThoughAnotherProcessHoldsThePipe) {
+    const auto start = std::chrono::steady_clock::now();
+    const auto result = run_apart([] {
+        if (fork() == 0) sleep(10), _exit(0);
+        return "x";
+    });
+    EXPECT_TRUE(result.ok());
+    EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(5));
+}
+
+TEST(RunApart, ThreadsReadAtOnce) {
+    std::vector<std::thread> threads;
+    std::atomic<int> good = 0;
+    for (int i = 0; i < 4; ++i)
+        threads.emplace_back([&] {
+            for (int k = 0; k < 20; ++k) good += run_apart([] { return "x"; }).ok();
+        });
+    for (std::thread& thread : threads) thread.join();
+    EXPECT_EQ(good, 80);
+}
+
+TEST(RunApart, TimeInWhichTheProgramIsStoppedDoesNotCount) {
+    const pid_t id = fork();
+    if (id == 0) _exit(run_apart([] { return usleep(600'000), "x"; }, {1, kGiB}).ok() ? 0 : 1);
+    usleep(200'000);
+    (void)kill(id, SIGSTOP);
+    sleep(2);
+    (void)kill(id, SIGCONT);
+    int status = -1;
+    (void)waitpid(id, &status, 0);
+    EXPECT_EQ(status, 0);
+}
+
+TEST(RunApart, StandardStreamsMayBeClosed) {
+    for (const int other : {STDIN_FILENO, STDOUT_FILENO}) {
+        const pid_t id = fork();
+        if (id == 0) {
+            (void)close(other), (void)close(STDERR_FILENO);
+            const auto result = run_apart([] { return "x"; });
+            _exit(result.ok() && result.value() == "x" ? 0 : 1);
+        }
+        int status = -1;
+        (void)waitpid(id, &status, 0);
+        EXPECT_EQ(status, 0);
+    }
+}
+
+TEST(RunApart, WhereNoProcessCanBeMadeTheErrorSaysWhy) {
+    rlimit before{};
+    ASSERT_EQ(getrlimit(RLIMIT_NOFILE, &before), 0);
+    const rlimit none{0, before.rlim_max};
+    ASSERT_EQ(setrlimit(RLIMIT_NOFILE, &none), 0);
+    const auto result = run_apart([] { return "x"; });
+    ASSERT_EQ(setrlimit(RLIMIT_NOFILE, &before), 0);
+    ASSERT_FALSE(result.ok());
+    EXPECT_EQ(result.error().code, "reader-not-started");
+    EXPECT_NE(result.error().message.find(std::strerror(EMFILE)), std::string::npos);
+    EXPECT_NE(result.error().remedy.find("ulimit"), std::string::npos);
 }
 
 TEST(MeshBytes, ComeBackAsTheyWere) {

@@ -36,9 +36,11 @@ ConsoleLine parsed(const std::string& line) {
     return result;
 }
 
+std::mutex one_capture;
+
 }  // namespace
 
-ConsoleCapture::ConsoleCapture() {
+ConsoleCapture::ConsoleCapture() : alone_(one_capture) {
     auto& stream = sdf::Console::Instance()->GetMsgStream();
     console_before_ = stream.GetStream();
     stream.SetStream(&captured_);

@@ -3,6 +3,7 @@
 // inside libsdformat at a time.
 #pragma once
 
+#include <mutex>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -24,6 +25,7 @@ class ConsoleCapture {
     std::vector<ConsoleLine> lines() const;
 
   private:
+    std::lock_guard<std::mutex> alone_;  // released last
     std::ostringstream captured_;
     std::ostream* console_before_ = nullptr;
     std::streambuf* cerr_before_ = nullptr;

@@ -1,7 +1,11 @@
 // URDF through libsdformat.
 #include <gtest/gtest.h>
 
+#include <atomic>
+#include <iostream>
 #include <map>
+#include <thread>
+#include <vector>
 
 #include "sdf/test_files.h"
 #include "world/joint_type.h"
@@ -433,6 +437,22 @@ TEST(Urdf, CamerasMaySeeLessThanATenthOfARadian) {
         for (const SensorSpec& one : link.sensors)
             views[one.name] = one.as<ColorCameraSpec>()->optics.horizontal_fov;
     EXPECT_EQ(views, (std::map<std::string, double>{{"wide", 1.5}, {"spot", 0.0349}}));
+}
+
+/// What libsdformat prints is taken from the streams of the whole program.
+TEST(Urdf, ThreadsLoadAtOnce) {
+    std::streambuf* const out = std::cout.rdbuf();
+    std::streambuf* const err = std::cerr.rdbuf();
+    std::atomic<int> loaded = 0;
+    std::vector<std::thread> threads;
+    for (int i = 0; i < 4; ++i)
+        threads.emplace_back([&] {
+            for (int k = 0; k < 5; ++k) loaded += load_text(kArm, "arm.urdf").world.has_value();
+        });
+    for (std::thread& thread : threads) thread.join();
+    EXPECT_EQ(loaded, 20);
+    EXPECT_EQ(std::cout.rdbuf(), out);
+    EXPECT_EQ(std::cerr.rdbuf(), err);
 }
 
 TEST(Urdf, CanBeIncludedInAWorld) {
