@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <initializer_list>
 #include <string_view>
+
 #include "xml/source_file.h"
 
 namespace roboss::collada {

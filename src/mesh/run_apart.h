@@ -1,4 +1,5 @@
-// Runs a reader of files that may be damaged in a process of its own: whatever it does, this one goes on.
+// Runs a reader of files that may be damaged in a process of its own: if it crashes or hangs, the program
+// continues.
 #pragma once
 
 #include <functional>

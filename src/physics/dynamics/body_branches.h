@@ -1,8 +1,8 @@
 // The bodies and joints of a robot with many loops as threads share them.
 //
 // The tree of the bodies is cut into branches that are walked side by side: towards the tips the trunk goes
-// first, towards the root it goes last. What each body computes, and in which order a parent hears of its
-// children, is as in one walk over all bodies, so no bit depends on it.
+// first, towards the root it goes last. What each body computes, and the order in which its children
+// add to a parent, are those of one walk over all bodies, so no bit depends on the number of threads.
 #pragma once
 
 #include <cstddef>

@@ -9,7 +9,7 @@ namespace roboss {
 
 /// Rows are padded to this many entries.
 inline constexpr std::size_t kFrontLanes = 8;
-/// At most so many rows are eliminated before the rest of a front hears of them.
+/// The most rows of a panel: they are eliminated together before the rest of the front is updated.
 inline constexpr std::size_t kFrontPanel = 16;
 
 struct FrontKernel {
