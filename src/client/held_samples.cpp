@@ -3,8 +3,8 @@
 
 #include <cmath>
 
+#include "core/archive.h"
 #include "core/check.h"
-#include "wire/archive.h"
 
 namespace roboss {
 namespace {

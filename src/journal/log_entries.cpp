@@ -3,7 +3,7 @@
 
 #include <iterator>
 
-#include "wire/archive.h"
+#include "core/archive.h"
 #include "wire/codec.h"
 
 namespace roboss {

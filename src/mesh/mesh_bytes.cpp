@@ -2,73 +2,42 @@
 #include "mesh/mesh_bytes.h"
 
 #include <cstdint>
-#include <cstring>
+#include <span>
 #include <type_traits>
+
+#include "core/archive.h"
 
 namespace roboss {
 namespace {
 
-class Writer {
-  public:
-    void bytes(const void* data, std::size_t size) { out.append(static_cast<const char*>(data), size); }
-    template <class Sequence>
-    void sequence(const Sequence& values) {
-        const std::uint64_t count = values.size();
-        bytes(&count, sizeof count);
-        bytes(values.data(), count * sizeof(*values.data()));
-    }
-    template <class T>
-    void plain(const T& value) {
-        bytes(&value, sizeof value);
-    }
+using wire::field;
+using wire::Reader;
+using wire::Writer;
 
-    std::string out;
-};
-
-class Reader {
-  public:
-    explicit Reader(const std::string& in) : in_(in) {}
-
-    void bytes(void* data, std::size_t size) {
-        good = good && size <= in_.size() - at_;
-        if (!good) return;
-        std::memcpy(data, in_.data() + at_, size);
-        at_ += size;
-    }
-    template <class Sequence>
-    void sequence(Sequence& values) {
-        constexpr std::size_t kSize = sizeof(*values.data());
-        std::uint64_t count = 0;
-        bytes(&count, sizeof count);
-        good = good && count <= (in_.size() - at_) / kSize;
-        if (!good) return;
-        values.resize(count);
-        bytes(values.data(), count * kSize);
-    }
-    template <class T>
-    void plain(T& value) {
-        bytes(&value, sizeof value);
-    }
-
-    bool good = true;
-
-  private:
-    const std::string& in_;
-    std::size_t at_ = 0;
-};
+/// Items as they lie in memory: the other process is a copy of this one.
+template <class Items>
+void items(Writer& writer, const Items& values) {
+    writer.count(values.size());
+    writer.raw(values.data(), values.size() * sizeof(*values.data()));
+}
+template <class Items>
+void items(Reader& reader, Items& values) {
+    values.resize(reader.count(sizeof(*values.data())));
+    reader.raw(values.data(), values.size() * sizeof(*values.data()));
+}
 
 template <class Stream, class Mesh>
 void pass_mesh(Stream& stream, Mesh& mesh) {
-    stream.sequence(mesh.source);
-    stream.sequence(mesh.vertices);
-    stream.sequence(mesh.triangles);
-    stream.sequence(mesh.uv);
+    items(stream, mesh.source);
+    items(stream, mesh.vertices);
+    items(stream, mesh.triangles);
+    items(stream, mesh.uv);
 }
 
 template <class Stream, class Picture>
 void pass_picture(Stream& stream, Picture& picture) {
-    stream.sequence(picture.name);
-    stream.sequence(picture.bytes);
+    items(stream, picture.name);
+    items(stream, picture.bytes);
 }
 
 template <class Stream, class Part>
@@ -76,20 +45,34 @@ void pass_part(Stream& stream, Part& part) {
     pass_mesh(stream, part.mesh);
     Vec3 rgb = part.rgb.value_or(Vec3{});
     bool has_rgb = part.rgb.has_value();
-    stream.plain(has_rgb);
-    stream.plain(rgb);
+    field(stream, has_rgb);
+    for (double* x : {&rgb.x, &rgb.y, &rgb.z}) field(stream, *x);
     if constexpr (!std::is_const_v<Part>)
         if (has_rgb) part.rgb = rgb;
-    stream.plain(part.alpha);
+    field(stream, part.alpha);
     pass_picture(stream, part.colour);
     pass_picture(stream, part.normal);
 }
 
+constexpr auto pass_file = [](auto& stream, auto& file) {
+    pass_mesh(stream, file.mesh);
+    field(stream, file.dropped);
+};
+
+constexpr auto pass_parts = [](auto& stream, auto& parts) {
+    constexpr std::size_t kLeast = 64;  // bytes of a part
+    if constexpr (std::is_const_v<std::remove_reference_t<decltype(parts)>>)
+        stream.count(parts.size());
+    else
+        parts.resize(stream.count(kLeast));
+    for (auto& part : parts) pass_part(stream, part);
+};
+
 template <class Stream, class Failure>
 void pass_error(Stream& stream, Failure& error) {
-    stream.sequence(error.message);
-    stream.sequence(error.remedy);
-    stream.sequence(error.code);
+    items(stream, error.message);
+    items(stream, error.remedy);
+    items(stream, error.code);
 }
 
 bool is_whole(const MeshSpec& mesh) {
@@ -109,61 +92,49 @@ Error damaged() {
 template <class T, class Pass>
 std::string to_bytes(const Result<T>& result, const Pass& pass) {
     Writer writer;
-    writer.plain(result.ok());
+    field(writer, result.ok());
     if (result.ok())
         pass(writer, result.value());
     else
         pass_error(writer, result.error());
-    return std::move(writer.out);
+    const std::vector<std::uint8_t> bytes = writer.take();
+    return {bytes.begin(), bytes.end()};
 }
 
 template <class T, class Pass>
 Result<T> from_bytes(const std::string& bytes, const Pass& pass) {
-    Reader reader(bytes);
-    char ok = 0;
-    reader.plain(ok);
+    Reader reader({reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()});
+    bool ok = false;
+    field(reader, ok);
     T value;
     Error error;
-    if (ok == 1)
+    if (ok)
         pass(reader, value);
     else
         pass_error(reader, error);
-    if (!reader.good) return damaged();
-    if (ok != 1) return error;
+    if (reader.failed()) return damaged();
+    if (!ok) return error;
     return value;
 }
 
 }  // namespace
 
 std::string mesh_to_bytes(const Result<MeshFile>& file) {
-    return to_bytes(file, [](Writer& writer, const MeshFile& value) {
-        pass_mesh(writer, value.mesh);
-        writer.plain(value.dropped);
-    });
+    return to_bytes(file, pass_file);
 }
 
 std::string parts_to_bytes(const Result<std::vector<MeshPart>>& parts) {
-    return to_bytes(parts, [](Writer& writer, const std::vector<MeshPart>& value) {
-        writer.plain(value.size());
-        for (const MeshPart& part : value) pass_part(writer, part);
-    });
+    return to_bytes(parts, pass_parts);
 }
 
 Result<MeshFile> mesh_from_bytes(const std::string& bytes) {
-    auto file = from_bytes<MeshFile>(bytes, [](Reader& reader, MeshFile& value) {
-        pass_mesh(reader, value.mesh);
-        reader.plain(value.dropped);
-    });
+    auto file = from_bytes<MeshFile>(bytes, pass_file);
     if (file && !is_whole(file.value().mesh)) return damaged();
     return file;
 }
 
 Result<std::vector<MeshPart>> parts_from_bytes(const std::string& bytes) {
-    auto parts = from_bytes<std::vector<MeshPart>>(bytes, [](Reader& reader, std::vector<MeshPart>& value) {
-        std::size_t count = 0;
-        reader.plain(count);
-        while (reader.good && value.size() < count) pass_part(reader, value.emplace_back());
-    });
+    auto parts = from_bytes<std::vector<MeshPart>>(bytes, pass_parts);
     if (!parts) return parts;
     for (const MeshPart& part : parts.value())
         if (!is_whole(part.mesh)) return damaged();

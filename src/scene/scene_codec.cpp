@@ -5,7 +5,7 @@
 #include <cmath>
 #include <utility>
 
-#include "wire/archive.h"
+#include "core/archive.h"
 
 namespace roboss {
 namespace wire {

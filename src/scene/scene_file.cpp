@@ -5,10 +5,10 @@
 #include <cstring>
 #include <nlohmann/json.hpp>
 
+#include "core/archive.h"
 #include "core/hash.h"
 #include "model/joint_motion.h"
 #include "scene/look_json.h"
-#include "wire/archive.h"
 #include "wire/view_state.h"
 #include "world/joint_type.h"
 

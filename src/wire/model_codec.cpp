@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <utility>
 
+#include "core/archive.h"
 #include "core/hash.h"
 #include "model/seal.h"
-#include "wire/archive.h"
 
 namespace roboss {
 namespace wire {

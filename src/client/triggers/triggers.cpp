@@ -7,7 +7,7 @@
 #include <string_view>
 #include <tuple>
 
-#include "wire/archive.h"
+#include "core/archive.h"
 
 namespace roboss {
 namespace {
