@@ -165,7 +165,7 @@ bool RobotGroup::goes_in_lanes(std::span<const std::uint32_t> members) const {
     if (!s_.lanes || s_.tried_alone || s_.keep_reactions || members.size() > 1 || work.touches_robot)
         return false;
     if (!misses_of(members[0], s_.finder.near_misses()).empty()) return false;
-    if (!fits_lanes(*work.type, *work.state)) return false;
+    if (!s_.lanes.take(call_.model, *work.type, *work.state)) return false;
     return s_.lanes.in_floats() ||
            (robots_.size() > 1 && touches_one_thing(contacts_of(members[0], s_.contacts)));
 }

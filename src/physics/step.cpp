@@ -224,11 +224,12 @@ void step_in_lanes(const StepCall& call, std::vector<std::uint32_t>& batch, std:
 
 /// A robot that leaned on something beside the ground in the last tick mostly still does, and then no
 /// register has its contacts. In floats it tries all the same: how a robot is stepped must hang on it alone.
-bool suits_lanes(const GroupScratch& group, const RobotType& type, const RobotState& state) {
+bool suits_lanes(const GroupScratch& group, const Model& model, const RobotType& type,
+                 const RobotState& state) {
     const auto is_elsewhere = [&](const ContactMemory& contact) {
         return contact.other_shape != state.contacts[0].other_shape;
     };
-    return group.lanes && !group.keep_reactions && fits_lanes(type, state) &&
+    return !group.keep_reactions && group.lanes.take(model, type, state) &&
            (group.lanes.in_floats() || std::ranges::none_of(state.contacts, is_elsewhere));
 }
 
@@ -240,7 +241,7 @@ void for_each_lone(const StepCall& call, Impl& s, const InLanes& in_lanes, const
     for (std::uint32_t i = 0; i < call.robots.size(); ++i) {
         if (s.sets.is_near(i)) continue;
         const std::size_t type = model.robots[call.robots[i].index()].type.index();
-        if (suits_lanes(s.group, model.types[type], *call.states[i]))
+        if (suits_lanes(s.group, model, model.types[type], *call.states[i]))
             s.queue.add(type, i, s.group.lanes.width(), in_lanes);
         else
             alone(i);

@@ -8,6 +8,7 @@
 #include "core/check.h"
 #include "core/make_room.h"
 #include "physics/bonds/bond_rows.h"
+#include "physics/contact/even_motion.h"
 #include "physics/dynamics/drag.h"
 #include "physics/dynamics/fast_turning.h"
 #include "physics/dynamics/fluid_forces.h"
@@ -207,33 +208,16 @@ void limit_correction(std::span<const RobotWork> robots, IslandScratch& s,
         s.displacement[i] = s.v[i] + share * (s.displacement[i] - s.v[i]);
 }
 
-/// Lone bodies that hardly turn, before and after the tick.
+/// Free bodies that hardly turn, before and after the tick.
 bool slides_only(std::span<const RobotWork> robots, const IslandScratch& s,
                  std::span<const std::uint32_t> members) {
-    constexpr double kTurning = 1e-3;  // rad/s
     for (std::size_t m = 0; m < members.size(); ++m) {
         const RobotType& type = *robots[members[m]].type;
         if (type.nv == 0) continue;
         if (!type.free_base || type.nv != 6) return false;
         const auto offset = static_cast<std::size_t>(s.offsets[m]);
-        for (std::size_t i = offset; i < offset + 3; ++i)
-            if (std::fabs(s.v_before[i]) > kTurning || std::fabs(s.v[i]) > kTurning) return false;
-    }
-    return true;
-}
-
-/// True if every contact is hard and no normal velocity changes: nothing new touches, nothing lifts off.
-bool contacts_are_steady(const IslandScratch& s, double dt) {
-    constexpr double kNothing = 1e-10;  // m, in the displacement of a tick
-    const ContactColumns& columns = s.rows.columns;
-    for (const ContactRow& row : s.rows.contacts) {
-        if (row.soft) return false;
-        double change = 0;
-        for (std::size_t k = row.first; k < row.last; ++k) {
-            const auto dof = static_cast<std::size_t>(columns.dof[k]);
-            change += columns.n[k] * (s.v[dof] - s.v_before[dof]);
-        }
-        if (std::fabs(change) * dt > 2 * kNothing) return false;
+        const auto own = [&](const std::vector<double>& v) { return std::span(v).subspan(offset, 6); };
+        if (!hardly_turns<double>(own(s.v_before)) || !hardly_turns<double>(own(s.v))) return false;
     }
     return true;
 }
@@ -243,7 +227,8 @@ bool contacts_are_steady(const IslandScratch& s, double dt) {
 /// does (whatever rocks, swings or hangs on a spring) this would add energy to the motion in each tick.
 void take_mean_displacement(std::span<const RobotWork> robots, IslandScratch& s,
                             std::span<const std::uint32_t> members, bool drifts, double dt) {
-    const bool even = !drifts && slides_only(robots, s, members) && contacts_are_steady(s, dt);
+    const bool even = !drifts && slides_only(robots, s, members) &&
+                      contacts_are_steady<double>(s.rows, s.v_before, s.v, dt);
     s.displacement.resize(s.v.size());
     for (std::size_t i = 0; i < s.v.size(); ++i)
         s.displacement[i] = even ? 0.5 * (s.v_before[i] + s.v[i]) : s.v[i];

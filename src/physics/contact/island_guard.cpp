@@ -7,10 +7,6 @@
 namespace roboss {
 namespace {
 
-constexpr double kSlow = 0.005;  // rad in a tick: less turning of a lone body adds nothing that counts
-
-constexpr double kRebound = 1e-3;  // m/s
-
 /// J, at most, that an impulse gives along a direction of the velocity before it: p u + p^2 / (2 m). The
 /// mobility 1/m is that of the zero pose, so it counts several times.
 double most_work(double impulse, double velocity, double mobility) {
@@ -106,10 +102,7 @@ void turn_island(const Model& model, std::span<RobotWork> robots, std::span<cons
 }
 
 bool throws_back(const IslandRows& rows) {
-    return std::ranges::any_of(rows.contacts, [](const ContactRow& row) {
-        return !row.soft && row.normal.impulse > 0 &&
-               row.normal.target - row.normal.compliance * row.normal.impulse > kRebound;
-    });
+    return std::ranges::any_of(rows.contacts, [](const ContactRow& row) { return throws_back<double>(row); });
 }
 
 /// True if a motor drives a joint that closes a loop by an effort or a servo: its work is not counted.
@@ -138,7 +131,8 @@ bool IslandGuard::start(const Model& model, std::span<RobotWork> robots, const I
             return false;
     } else {
         const auto bends = [&](const RobotWork& robot) {
-            return !robot.type->dofs.empty() || fastest_turn(robot) * model.dt_s * model.dt_s > kSlow * kSlow;
+            return !robot.type->dofs.empty() ||
+                   fastest_turn(robot) * model.dt_s * model.dt_s > kSlowTurn * kSlowTurn;
         };
         const bool contacts_may_add = island.touched && (island.bounces || any(bends));
         if (!island.bonded && !contacts_may_add && !(island.blown && any(bends))) return false;

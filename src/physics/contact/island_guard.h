@@ -10,8 +10,18 @@
 
 namespace roboss {
 
+/// rad in a tick: less turning of a free body adds nothing that counts.
+inline constexpr double kSlowTurn = 0.005;
+
 /// True if a rigid contact throws what hits it back, by the velocities that were solved for.
 bool throws_back(const IslandRows& rows);
+template <class T>
+MaskOf<T> throws_back(const ContactRowT<T>& row) {
+    constexpr double kRebound = 1e-3;  // m/s
+    if (row.soft) return false;
+    return (row.normal.impulse > T(0)) &
+           (row.normal.target - row.normal.compliance * row.normal.impulse > T(kRebound));
+}
 
 /// Sums over some robots about `origin`; `members` index `robots`. Overwrites `buffer`.
 BodySums sum_robots(const Model& model, std::span<RobotWork> robots, std::span<const std::uint32_t> members,

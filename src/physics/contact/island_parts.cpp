@@ -67,8 +67,7 @@ SolveReport IslandParts::solve(Problem p, std::vector<double>& v, const Team& te
 }
 
 bool IslandParts::has_parts(const Problem& p) {
-    const bool is_alone = p.robots.size() == 1 && !BodySolver::can_solve(*p.robots[0]);
-    return !is_alone && !p.rows.contacts.empty();
+    return p.robots.size() > 1 && !p.rows.contacts.empty();
 }
 
 void IslandParts::profile_friction(const Problem& p, SolverProfile& profile) const {

@@ -8,6 +8,8 @@
 
 #include "geometry/plane_contacts.h"
 #include "physics/contact/contact_rows.h"
+#include "physics/contact/even_motion.h"
+#include "physics/contact/island_guard.h"
 #include "physics/contact/turns_far.h"
 #include "physics/dynamics/dynamics.h"
 #include "physics/dynamics/fast_turning.h"
@@ -373,13 +375,36 @@ class LaneStep final : public LaneStepper {
         pushed_ = false;
         take_impulses();
         leave_isolated_robots(together);
+        if (is_free_body()) leave_guarded(model, together);
+    }
+
+    bool is_free_body() const { return work_.type->free_base && work_.type->nv == 6; }
+
+    /// Free bodies whose energy is guarded (island_guard.h).
+    void leave_guarded(const Model& model, Lockstep<T>& together) {
+        const Vec3T<Wide>& turning = placed().bodies[0].velocity.angular;
+        leave_where(norm_squared(turning) * Wide(model.dt_s) * Wide(model.dt_s) > Wide(kSlowTurn * kSlowTurn),
+                    together);
+        for (const ContactRowT<T>& row : rows_.contacts) leave_where(throws_back<T>(row), together);
     }
 
     void find_displacement(const Model& model, Lockstep<T>& together) {
         displacement_ = solution_;
-        if (together.any() && together(split_)) solve_displacement(problem(model), together);
+        if (together.any() && together(split_))
+            solve_displacement(problem(model), together);
+        else if (is_free_body())
+            take_mean_displacement(model.dt_s);
         leave_free_robots(together);
         leave_far_turning_robots(model, together);
+    }
+
+    /// As contact_island.cpp.
+    void take_mean_displacement(double dt) {
+        const std::span<const T> before = state_.joints().v;
+        const Mask even = hardly_turns<T>(before) & hardly_turns<T>(solution_) &
+                          contacts_are_steady<T>(rows_, before, solution_, dt);
+        for (std::size_t i = 0; i < solution_.size(); ++i)
+            displacement_[i] = select(even, T(0.5) * (before[i] + solution_[i]), solution_[i]);
     }
 
     void integrate(const Model& model, Lockstep<T>& together) {

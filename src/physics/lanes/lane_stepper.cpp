@@ -1,17 +1,48 @@
 // See lane_stepper.h.
 #include "physics/lanes/lane_stepper.h"
 
+#include <algorithm>
+
+#include "physics/contact/island_guard.h"
 #include "physics/dynamics/fast_turning.h"
+#include "physics/lanes/lane_contacts.h"
 
 namespace roboss {
+namespace {
+
+bool is_free_body(const RobotType& type) {
+    return type.free_base && type.nv == 6;
+}
+
+/// Nothing pushes it that lanes do not know.
+bool is_plain(const RobotType& type, const RobotState& state) {
+    return !type.has_equalities() && type.drags.empty() && !type.feels_flow && !type.has_slip &&
+           type.self_pairs.empty() && state.wrenches.empty() && state.bonds.empty() && state.surfaces.empty();
+}
+
+}  // namespace
 
 LaneStepper::~LaneStepper() = default;
 
 bool fits_lanes(const RobotType& type, const RobotState& state) {
-    const bool is_lone_body = type.free_base && type.nv == 6;
-    return type.nv > 0 && !is_lone_body && !type.has_equalities() && type.drags.empty() && !type.feels_flow &&
-           !type.has_slip && type.self_pairs.empty() && state.wrenches.empty() && state.bonds.empty() &&
-           state.surfaces.empty() && is_driven<double>(state.motors);
+    return type.nv > 0 && !is_free_body(type) && is_plain(type, state) && is_driven<double>(state.motors);
+}
+
+bool rests_in_lanes(const Model& model, const RobotType& type, const RobotState& state) {
+    if (!is_free_body(type) || state.contacts.empty() || !is_plain(type, state)) return false;
+    if (model.sleep && state.rest.still_ticks > 0) return false;
+    const bool on_plain_ground = std::ranges::all_of(state.contacts, [&](const ContactMemory& c) {
+        return c.other_robot == RobotId::kNone && c.other_shape < model.statics.size() &&
+               LaneContacts::is_plain(model, type.shapes[c.shape], c.other_shape);
+    });
+    if (!on_plain_ground) return false;
+    const Vec3 turn = Vec3{state.v[0], state.v[1], state.v[2]} * model.dt_s;
+    return norm_squared(turn) <= kSlowTurn * kSlowTurn;
+}
+
+bool LaneSteppers::take(const Model& model, const RobotType& type, const RobotState& state) const {
+    if (lanes == nullptr) return false;
+    return fits_lanes(type, state) || (!in_floats() && rests_in_lanes(model, type, state));
 }
 
 std::unique_ptr<LaneStepper> make_lane_stepper(Precision precision, std::size_t most) {

@@ -76,6 +76,8 @@ struct LaneSteppers {
     explicit operator bool() const { return lanes != nullptr; }
     std::size_t width() const { return lanes->width(); }
     bool in_floats() const { return single != nullptr; }
+    /// Whether such a robot is to be stepped in them.
+    bool take(const Model& model, const RobotType& type, const RobotState& state) const;
 };
 
 /// Steps a batch in lanes, each robot as lane_of(i) says; then visit(i, whether it was stepped) for each of
@@ -97,11 +99,13 @@ void step_batch(const LaneSteppers& steppers, const Model& model, std::vector<st
     batch.clear();
 }
 
-/// Whether a robot may be stepped in lanes at all: no loops, couplings or drag, no contact with itself, no
-/// wheels that slip, no wrench, no bond that it holds; no lone body (what slides without turning is stepped
-/// apart, see contact_island.cpp), and nothing without a driven motor (its energy is guarded, see
-/// kick_drift.h and island_guard.h).
+/// Whether a robot with joints may be stepped in lanes: no loops, couplings or drag, no contact with itself,
+/// no wheels that slip, no wrench, no bond that it holds, and a driven motor (the energy of others is
+/// guarded, see kick_drift.h and island_guard.h).
 bool fits_lanes(const RobotType& type, const RobotState& state);
+/// Likewise a free body that touched something in the last tick. Those that turn so far in a tick that their
+/// energy is guarded do not fit, nor those about to fall asleep.
+bool rests_in_lanes(const Model& model, const RobotType& type, const RobotState& state);
 
 /// The widest stepper of at most `most` lanes that this processor can run. If there is none: nullptr for
 /// doubles, make_single_stepper() for floats.
