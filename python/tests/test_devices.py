@@ -188,7 +188,8 @@ def test_ctrl_c_stops_the_robot_first(tmp_path):
     assert found["stops"] == 1 and "watchdog" not in found
 
 
-def test_a_twin_follows_the_real_robot_in_a_run_of_others(tmp_path):
+def drive_twin(tmp_path):
+    """Places of the twin, where the robot stands in the end, and the command's summary."""
     name = f"twin_{os.getpid()}_{time.monotonic_ns()}"
     trace = tmp_path / "trace.csv"
     with stand_in("khepera", "khepera.sdf", "--drop", 0.001) as (robot, at), \
@@ -196,14 +197,25 @@ def test_a_twin_follows_the_real_robot_in_a_run_of_others(tmp_path):
                     "--headless", "--speed", 1, "--trace", trace, "--trace-every", 0.1, "--no-stay") as run:
         done = drive(tmp_path, "roboss_khepera", "--twin", "--simulation", name, *KHEPERA, f"serial:{at['serial']},38400",
                      "--duration", 4)
+        time.sleep(0.5)                                         # it stays where it was put last
         run.send_signal(signal.SIGINT)
         run.communicate(timeout=20)
         found = summary(robot)
     with trace.open() as rows:
         places = [(float(row["x"]), float(row["y"])) for row in csv.DictReader(rows)
                   if row["robot"] == "khepera" and row["link"] == "body"]
+    return places, found["pose"][:2], done
+
+
+def test_a_twin_follows_the_real_robot_in_a_run_of_others(tmp_path):
+    for _ in range(5):                                          # where replies are late, odometry is coarse
+        places, end, done = drive_twin(tmp_path)
+        if done["calls"] > 70:                                  # of 80
+            break
+    else:
+        pytest.skip("this computer is too busy for a robot in real time")
     assert math.dist(places[0], places[-1]) > 0.02
-    assert math.dist(places[-1], found["pose"][:2]) < 0.02      # odometry drifts
+    assert math.dist(places[-1], end) < 0.02                    # odometry drifts
     assert done["placed"] > 50
 
 

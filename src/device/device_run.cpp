@@ -12,6 +12,7 @@ namespace {
 
 constexpr double kReopen_s = 0.25;   // between attempts to open a broken line
 constexpr double kFarewell_s = 0.8;  // for devices to acknowledge that they rest
+constexpr double kBraking_s = 0.1;   // then: until their readings say where they stand
 
 std::string text_of(double seconds) {
     const long tenths = std::lround(10 * seconds);
@@ -70,15 +71,26 @@ void DeviceRun::advance(double now_s) {
                 drive(now_s);
             break;
         case Phase::kStopping: {
-            const bool all_rest = std::ranges::all_of(
-                devices_, [](const Device& d) { return !d.robot.valid() || d.adapter->at_rest(); });
-            if (!all_rest && waited_s < kFarewell_s) break;
+            if (!stand(now_s) && waited_s < kFarewell_s) break;
             tell_unstopped(now_s);
             return enter(Phase::kOver, now_s);
         }
         case Phase::kOver:
             break;
     }
+}
+
+/// Whether all robots have stopped, and said where.
+bool DeviceRun::stand(double now_s) {
+    const auto each = [&](auto&& is) {
+        return std::ranges::all_of(devices_,
+                                   [&](const Device& d) { return !d.robot.valid() || is(*d.adapter); });
+    };
+    const bool all_rest = each([](const DeviceAdapter& adapter) { return adapter.at_rest(); });
+    if (!all_rest || rested_s_ == kNever) rested_s_ = all_rest ? now_s : kNever;
+    return all_rest && each([&](const DeviceAdapter& adapter) {
+               return adapter.readings().fresh_s >= rested_s_ + kBraking_s;
+           });
 }
 
 /// Reads and writes the line; opens it again if it broke.

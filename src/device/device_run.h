@@ -76,6 +76,7 @@ class DeviceRun {
         double silent_s = kNever;  // since when its readings are too old, once it was driven
     };
 
+    bool stand(double now_s);
     void serve(std::size_t i, double now_s);
     void note_trouble(std::size_t i, const Error& why);
     bool is_old(std::size_t i, double now_s) const;
@@ -98,6 +99,7 @@ class DeviceRun {
     Phase phase_ = Phase::kConnecting;
     bool started_ = false, stop_wanted_ = false;
     double entered_s_ = kNever;  // this phase
+    double rested_s_ = kNever;   // since then all devices say that they rest
     double begin_s_ = kNever;    // tick 0
     double last_s_ = kNever;     // of advance()
     Tick due_ = 0;               // the next observation

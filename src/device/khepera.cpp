@@ -14,6 +14,7 @@ namespace {
 constexpr double kPatience_s = 0.2;   // for an answer; the longest takes 50 ms at 9600 baud
 constexpr double kRepeat_s = 0.3;     // a robot that rebooted unseen drives on after this long
 constexpr double kSlack = 2;          // wheels turn no faster than this many times the greatest speed
+constexpr int kAgreed = 3;            // counts in a row, to believe a jump
 constexpr std::size_t kLongest = 80;  // characters of a line
 constexpr std::size_t kEyes = 8;
 constexpr double kAgain_s = 0.5;  // the banner has several lines
@@ -178,20 +179,37 @@ bool KheperaAdapter::take_proximity(const std::vector<long>& values, double now_
     return true;
 }
 
-/// A count that jumps further than a wheel turns was falsified on the line, or the robot started again
-/// unseen.
+/// Pulses in 10 ms, the faster wheel: what was ordered last or what the robot says.
+double KheperaAdapter::fastest() const {
+    double most = 0;
+    for (std::size_t i = 0; i < 2; ++i) {
+        most = std::max(most, std::fabs(static_cast<double>(sent_[i])));
+        const auto wheel = readings_.joints.find(wheels_[i]);
+        if (wheel == readings_.joints.end()) continue;
+        most = std::max(most, std::fabs(wheel->second.velocity) / KheperaUnits::kSpeed);
+    }
+    return most;
+}
+
+/// A count that jumps further than the wheels turned, by all that is known, may have been falsified on the
+/// line: it is believed if the next ones agree. If no wheel turns that fast, the robot started again unseen.
 bool KheperaAdapter::take_counts(const Counts& counts, double now_s) {
     constexpr long kMost = 1L << 31;  // of a counter
     if (std::abs(counts[0]) > kMost || std::abs(counts[1]) > kMost) return false;
-    const double elapsed_s = std::min(now_s - counts_s_, 3600.0);
-    const long most = std::lround(kSlack * KheperaUnits::kMostSpeed * (1 + 100 * elapsed_s));
-    const auto far_from = [&](const Counts& other) {
+    const auto is_far = [&](const Counts& other, double other_s, double speed) {
+        const double elapsed_s = std::min(now_s - other_s, 3600.0);
+        const long most =
+            std::lround(kSlack * (KheperaUnits::kMostSpeed / 4 + speed * (1 + 100 * elapsed_s)));
         return std::labs(counts[0] - other[0]) > most || std::labs(counts[1] - other[1]) > most;
     };
+    constexpr double kAny = KheperaUnits::kMostSpeed;
     bool anew = reset_ || !counts_;
-    if (!anew && far_from(*counts_)) {
-        if (!suspicion_ || far_from(*suspicion_)) return suspicion_ = counts, false;
-        anew = true;
+    if (!anew && is_far(*counts_, counts_s_, fastest())) {
+        const bool agrees = suspicions_ > 0 && !is_far(suspicion_, suspicion_s_, kAny);
+        suspicions_ = agrees ? suspicions_ + 1 : 1;
+        suspicion_ = counts, suspicion_s_ = now_s;
+        if (suspicions_ < kAgreed) return false;
+        anew = is_far(*counts_, counts_s_, kAny);
     }
     const Counts before = counts_.value_or(Counts{});
     Counts moved{};
@@ -205,7 +223,7 @@ bool KheperaAdapter::take_counts(const Counts& counts, double now_s) {
     }
     count_on(moved[0], moved[1], now_s);
     counts_ = counts, counts_s_ = now_s;
-    suspicion_.reset(), reset_ = false;
+    suspicions_ = 0, reset_ = false;
     return true;
 }
 

@@ -44,6 +44,7 @@ class KheperaAdapter final : public DeviceAdapter {
     bool take_numbers(char letter, const std::vector<long>& numbers, double now_s);
     bool take_proximity(const std::vector<long>& values, double now_s);
     bool take_counts(const Counts& counts, double now_s);
+    double fastest() const;
     void take_speeds(const std::vector<long>& speeds);
     void count_on(long left, long right, double now_s);
     void note_reboot(const std::string& said, double now_s);
@@ -59,12 +60,13 @@ class KheperaAdapter final : public DeviceAdapter {
     char asked_ = 0;        // that is to be answered
     std::size_t turn_ = 0;  // in the round of questions
     double asked_s_ = kNever, set_s_ = kNever, proximity_s_ = kNever, counts_s_ = kNever;
-    double rebooted_s_ = kNever;
-    std::optional<Counts> counts_;     // of pulses, that were believed last
-    std::optional<Counts> suspicion_;  // that jumped: believed if the next ones agree
-    Counts offset_{};                  // of the joints' positions, in pulses: a reboot sets counts to zero
-    bool reset_ = false;               // the next counts start from zero
-    std::string part_;                 // of a line
+    double rebooted_s_ = kNever, suspicion_s_ = kNever;
+    std::optional<Counts> counts_;  // of pulses, that were believed last
+    Counts suspicion_{};            // that jumped: believed if the next ones agree
+    int suspicions_ = 0;            // so many of them agree
+    Counts offset_{};               // of the joints' positions, in pulses: a reboot sets counts to zero
+    bool reset_ = false;            // the next counts start from zero
+    std::string part_;              // of a line
 };
 
 }  // namespace roboss

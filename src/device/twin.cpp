@@ -44,12 +44,13 @@ void Twin::place(const Device& device) {
     const DeviceReadings& readings = device.adapter->readings();
     if (readings.fresh_s == kNever) return;
     const RobotId robot = device.robot;
+    const double moves = stopped_ ? 0.0 : 1.0;
     if (const PoseReading* pose = pose_of(robot); pose != nullptr && client_.type(robot).free_base) {
         client_.set_pose(robot, pose->X_WR);
-        client_.set_velocity(robot, pose->linear, pose->angular);
+        client_.set_velocity(robot, pose->linear * moves, pose->angular * moves);
     }
     for (const auto& [joint, reading] : readings.joints)
-        client_.set_joint_state(robot, joint, {reading.position}, {reading.velocity});
+        client_.set_joint_state(robot, joint, {reading.position}, {reading.velocity * moves});
     ++placed_;
 }
 

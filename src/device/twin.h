@@ -16,6 +16,9 @@ class Twin {
 
     /// Takes observations, and answers each with where the real robots are now. Never waits.
     void advance(Bus& bus);
+    /// From now on the robots stand where they are put: their devices have stopped, and nobody will put them
+    /// again.
+    void stop() { stopped_ = true; }
     /// A robot as the run has it, for programs that ask for the others; null before the first observation.
     const RobotState* state(RobotId robot) const;
     /// How often the twins were put.
@@ -27,7 +30,7 @@ class Twin {
 
     BusClient& client_;
     std::span<const Device> devices_;
-    bool shown_ = false;
+    bool shown_ = false, stopped_ = false;
     std::uint64_t placed_ = 0;
 };
 

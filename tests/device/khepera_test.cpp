@@ -114,6 +114,27 @@ TEST_F(KheperaProtocol, DamagedAnswersAreDroppedAndTheNextOneIsAskedFor) {
     EXPECT_LT(now - adapter->readings().fresh_s, 0.1);
 }
 
+/// After a pause wheels may have turned far, but not at the speed that they were ordered.
+TEST_F(KheperaProtocol, ALostDigitAfterAPauseMovesNothing) {
+    ASSERT_TRUE(drive(left, 10 * KheperaUnits::kSpeed).ok());
+    adapter->rest(false);
+    long count = 0;
+    const auto roll = [&](double seconds) {
+        for (const double end = now + seconds; now < end;) {
+            device.counts = {count += 5, 0};  // in 5 ms
+            talk(0.005);
+        }
+    };
+    roll(2);
+    const double was = position(left);
+    now += 0.1;
+    adapter->receive("h," + std::to_string((count += 100) % 1000) + ",0\r\n", now);
+    EXPECT_EQ(position(left), was);
+    roll(0.5);
+    EXPECT_NEAR(position(left), static_cast<double>(count) * KheperaUnits::kRadians,
+                40 * KheperaUnits::kRadians);
+}
+
 TEST_F(KheperaProtocol, ARebootKeepsPositionsAndGetsItsSpeedsAgain) {
     ASSERT_TRUE(drive(left, 5 * KheperaUnits::kSpeed).ok());
     adapter->rest(false);

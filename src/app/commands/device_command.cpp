@@ -181,7 +181,17 @@ class DeviceProcess {
             else
                 std::this_thread::sleep_for(std::chrono::milliseconds(1));
         }
-        if (twin_) member_client_->leave(member_.bus()), member_.bus().flush(500);
+        if (twin_) leave_run();
+    }
+
+    /// The twins would roll on with their last velocities.
+    void leave_run() {
+        twin_->stop();
+        const double end = now_s() + 0.5;
+        for (const std::uint64_t before = twin_->placed();
+             !run_ended_ && twin_->placed() == before && now_s() < end;)
+            move_twin();
+        member_client_->leave(member_.bus()), member_.bus().flush(500);
     }
 
     void move_twin() {
