@@ -2,7 +2,9 @@
 #include "sdf/element_reader.h"
 
 #include <cctype>
+#include <charconv>
 #include <cmath>
+#include <cstdint>
 #include <span>
 
 namespace roboss::sdf_import {
@@ -16,6 +18,20 @@ std::optional<double> number_at_start(std::string_view text) {
     const std::size_t second = point == text.npos ? point : text.find('.', point + 1);
     return parse_number(text.substr(0, second));
 }
+
+namespace {
+
+/// "0x0f": libsdformat takes whole numbers so.
+std::optional<double> hexadecimal(std::string_view text) {
+    if (!text.starts_with("0x") && !text.starts_with("0X")) return std::nullopt;
+    std::uint32_t value = 0;
+    const char* const end = text.data() + text.size();
+    const auto [rest, error] = std::from_chars(text.data() + 2, end, value, 16);
+    if (error != std::errc() || rest != end) return std::nullopt;
+    return value;
+}
+
+}  // namespace
 
 void ElementReader::report_rest(const Element& element, std::string_view word) const {
     diagnostics_.warning(element.where(), "trailing-text",
@@ -49,6 +65,7 @@ bool ElementReader::numbers(const Element& element, std::span<double> values, Fi
     std::vector<double> parsed;
     for (const auto word : std::span(words).first(values.size())) {
         auto value = parse_number(word);
+        if (!value) value = hexadecimal(word);
         if (!value && (value = number_at_start(word))) report_rest(element, word);
         const bool good =
             value && !std::isnan(*value) && (finite == Finite::kInfinityAllowed || std::isfinite(*value));

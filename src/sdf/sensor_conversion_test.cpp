@@ -159,7 +159,7 @@ TEST(Sensors, TheCamerasOfAMulticameraAreSensorsOfTheirOwn) {
         "<camera name='left'><pose>0 0.1 0 0 0 0</pose><image><width>32</width><height>24</height></image>"
         "<noise><type>gaussian</type><stddev>0.1</stddev></noise></camera>"
         "<camera name='right'><pose>0 -0.1 0 0 0 0</pose><horizontal_fov>1.5</horizontal_fov>"
-        "<visibility_mask>6</visibility_mask></camera></sensor>");
+        "<visibility_mask>0x06</visibility_mask></camera></sensor>");
     ASSERT_TRUE(loaded.world) << loaded.text();
     EXPECT_TRUE(loaded.diagnostics.items().empty()) << loaded.text();
     const std::vector<SensorSpec>& sensors = loaded.world->prototypes.at(0).links.at(0).sensors;

@@ -57,6 +57,14 @@ TEST(SdfVisuals, APbrMaterialHasItsPicturesAndNumbers) {
     EXPECT_EQ(visual.rgb.x, 1) << "the picture alone, for no <diffuse> is given";
 }
 
+TEST(SdfVisuals, VisibilityFlagsMayBeHexadecimal) {
+    const TestFolder folder;
+    const Loaded loaded = load(folder, kBox + "<visibility_flags>0x1F</visibility_flags>");
+    EXPECT_EQ(loaded.diagnostics.items().size(), 0u) << loaded.text();
+    EXPECT_EQ(visuals_of(loaded).at(0).visibility_flags, 0x1Fu);
+    EXPECT_TRUE(load(folder, kBox + "<visibility_flags>0x1G</visibility_flags>").find("bad-value"));
+}
+
 TEST(SdfVisuals, AMissingOrUnreadablePictureIsAWarningWithItsLine) {
     const TestFolder folder;
     folder.write("broken.png", picture().substr(0, 20));

@@ -88,7 +88,11 @@ bool Run::prepare() {
     if (world) world_speed_ = world->real_time_factor;
     if (model_ && !o_.orders.empty()) orders_ = load_orders(o_.orders, *model_, diagnostics);
     print(diagnostics, o_.world);
-    if (!model_ || refused()) return false;
+    if (!model_ || refused()) {
+        fmt::print(stderr, "roboss: {} is refused for the errors above{}\n", o_.world,
+                   o_.strict ? ", as --strict asks" : "; they concern the whole world or all its models");
+        return false;
+    }
     if (Result<> found = check_snapshot(o_.snapshot, *model_); !found) return print(found.error()), false;
     if (Result<> found = check_sense(o_.sense, *model_); !found) return print(found.error()), false;
     world_model_ = model_;
