@@ -43,6 +43,7 @@ struct IslandScratch {
     std::vector<double> v, v_before;
     std::vector<double> displacement;  // of the tick, over dt
     std::vector<char> drifts;          // by member of the island: takes the kick-drift step
+    std::vector<char> large_turns;     // by member: a lone body that turns far in the tick
     std::vector<char> touched;         // by robot of the group: pushed by another or by scenery
     bool anchored = false;             // pushed by something that does not move freely
     RowSplit split;                    // if anyone drifts

@@ -33,16 +33,17 @@ bool flies(const Model& model, const RobotWork& work, const IslandScratch& s) {
     return moves_freely(model, work) && !(s.group.keep_reactions && !work.type->loops.empty());
 }
 
+bool is_fixed(std::span<const RobotWork> robots, int robot) {
+    return robot < 0 || !robots[static_cast<std::size_t>(robot)].type->free_base;
+}
+
 /// Marks the robots that another robot or scenery pushes, by the impulses of the last solution, and notes
 /// whether the island is anchored: pushed by something that does not move freely.
 void mark_touched(std::span<const RobotWork> robots, IslandScratch& s) {
-    const auto is_fixed = [&](int robot) {
-        return robot < 0 || !robots[static_cast<std::size_t>(robot)].type->free_base;
-    };
     for (std::size_t c = 0; c < s.rows.contacts.size(); ++c) {
         const Contact& contact = *s.contacts[c];
         if (s.rows.contacts[c].normal.impulse <= 0 || contact.robot_a == contact.robot_b) continue;
-        s.anchored |= is_fixed(contact.robot_a) || is_fixed(contact.robot_b);
+        s.anchored |= is_fixed(robots, contact.robot_a) || is_fixed(robots, contact.robot_b);
         s.touched[static_cast<std::size_t>(contact.robot_a)] = 1;
         if (contact.robot_b >= 0) s.touched[static_cast<std::size_t>(contact.robot_b)] = 1;
     }
@@ -105,6 +106,7 @@ void drift(const Model& model, RobotWork& work, std::size_t member, bool touched
     solved.held = own(s.split.held);
     solved.isolated = !touched && !work.bonded;
     solved.passive = is_passive(model, work);
+    solved.flies_displaced = s.anchored && s.large_turns[member] != 0;
     s.gained_moment += advance_kick_drift(model, work, solved, s.free_buffer);
 }
 
@@ -288,12 +290,39 @@ void stop_at_first_hit(const Model& model, std::span<RobotWork> robots, IslandSc
     }
 }
 
+/// Lone bodies whose velocity or displacement is a large turn: where one is, the other may be small. Decided
+/// once for the second look and the integrator, and before the displacement is cut at a hit.
+void find_large_turns(const Model& model, std::span<const RobotWork> robots, IslandScratch& s,
+                      std::span<const std::uint32_t> members) {
+    s.large_turns.resize(members.size());
+    for (std::size_t m = 0; m < members.size(); ++m) {
+        const RobotType& type = *robots[members[m]].type;
+        const auto turns = [&](const std::vector<double>& v) {
+            const double* w = v.data() + s.offsets[m];
+            return is_large_turn(type, {w[0], w[1], w[2]}, model.dt_s);
+        };
+        s.large_turns[m] = type.free_base && type.nv == 6 && (turns(s.v) || turns(s.displacement));
+    }
+}
+
+/// Whether mark_touched will find the island anchored, by what is solved so far.
+bool is_anchored(std::span<const RobotWork> robots, const IslandScratch& s) {
+    bool anchored = s.anchored;
+    if (std::ranges::find(s.large_turns, 1) == s.large_turns.end()) return anchored;
+    for (std::size_t c = 0; c < s.contacts.size() && !anchored; ++c)
+        anchored = s.rows.contacts[c].normal.impulse > 0 &&
+                   s.contacts[c]->robot_a != s.contacts[c]->robot_b &&
+                   (is_fixed(robots, s.contacts[c]->robot_a) || is_fixed(robots, s.contacts[c]->robot_b));
+    return anchored;
+}
+
 /// Keeps the displacement from what it would hit beyond the contacts that it was solved for. What a few
 /// rounds do not settle stops at the first hit.
 void stop_late_hits(const Model& model, std::span<RobotWork> robots, IslandScratch& s,
                     std::span<const std::uint32_t> members, bool split, StepReport& report) {
     constexpr int kRounds = 4;
     s.look.clear();
+    find_large_turns(model, robots, s, members);
     if (!is_plausible(s.displacement)) return;
     const std::size_t found = s.contacts.size();
     for (int round = 0; round <= kRounds; ++round) {
@@ -303,7 +332,11 @@ void stop_late_hits(const Model& model, std::span<RobotWork> robots, IslandScrat
                                   s.offsets_of_group,
                                   s.group.near_misses,
                                   {s.contacts.data(), found},
+                                  s.v,
                                   s.displacement,
+                                  s.drifts,
+                                  s.large_turns,
+                                  is_anchored(robots, s),
                                   *s.group.free_courses};
         if (!s.look.find(island, round == 0)) break;
         if (round == kRounds) {
@@ -319,6 +352,7 @@ void stop_late_hits(const Model& model, std::span<RobotWork> robots, IslandScrat
         const std::size_t solved = s.rows.contacts.size();
         s.look.add_rows(island, s.rows, s.surfaces);
         solve_displacement(model, s, solved, report);
+        find_large_turns(model, robots, s, members);
     }
     s.contacts.resize(found);
     for (Contact& hit : s.look.hits()) s.contacts.push_back(&hit);

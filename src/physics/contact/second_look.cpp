@@ -7,6 +7,7 @@
 #include "core/make_room.h"
 #include "geometry/collide.h"
 #include "physics/contact/island_guard.h"
+#include "physics/dynamics/fast_turning.h"
 
 namespace roboss {
 namespace {
@@ -107,7 +108,21 @@ Course SecondLook::course(const SolvedIsland& island, int robot, std::uint32_t s
     if (!is_pushed(island, robot))
         if (const auto free = island.free_courses.find(island.model, island.robots[i], i, shape))
             return *free;
-    return course_of(moved(island, robot), shape);
+    const double dt = island.model.dt_s;
+    const Mechanics<double>& to = moved(island, robot);
+    if (large_turns_[i] == 0 || !is_pushed(island, robot)) return course_of(to, shape, dt);
+    if (drifts_[i] == 0) return steady_course_of(to, shape);
+    if (anchored_) return course_of(to, shape, dt);
+    const double* v = island.velocity.data() + island.offsets[i];
+    return shifted_course_of(to, shape, {{v[0], v[1], v[2]}, {v[3], v[4], v[5]}}, dt);
+}
+
+/// The angular velocity of the displacement. The course of a body of revolution lacks the spin about its
+/// axis.
+Vec3 SecondLook::turning(const SolvedIsland& island, int robot, std::uint32_t shape, const Course& course) {
+    if (robot < 0 || large_turns_[static_cast<std::size_t>(robot)] == 0) return course.angular;
+    const Mechanics<double>& to = moved(island, robot);
+    return to.type->shapes[shape].body < 0 ? course.angular : to.bodies[0].velocity.angular;
 }
 
 void SecondLook::add(const SolvedIsland& island, const ShapePair& pair, const Course& a, const Course& b,
@@ -179,7 +194,7 @@ void SecondLook::find_struck(const SolvedIsland& island, std::uint32_t robot) {
     for (std::size_t s = 0; s < work.shapes.size(); ++s) {
         const BodyShape& shape = work.type->shapes[s];
         if (shape.body < 0) continue;
-        const double reach = speed_of(course_of(to, s)) * model.dt_s + kBaseMargin;
+        const double reach = speed_of(course_of(to, s, model.dt_s)) * model.dt_s + kBaseMargin;
         if (reach <= work.shapes[s].margin) continue;
         model.static_bvh.query(bounds(shape.shape, work.shapes[s].X_WS).inflated(reach), scenery_);
         for (const std::uint32_t i : scenery_) {
@@ -228,8 +243,11 @@ void SecondLook::find_turned(const SolvedIsland& island, std::span<const Contact
     for (const Contact* c : contacts) least = std::min(least, c->gap);
     const Course a = course(island, pair.robot_a, pair.shape_a);
     const Course b = course(island, pair.robot_b, pair.shape_b);
-    const auto turns = [&](const Course& c) { return turns_far<double>(*c.shape, c.X.R, c.angular, dt); };
-    if (!turns(a) && !turns(b)) return;
+    const Vec3 turning_a = turning(island, pair.robot_a, pair.shape_a, a),
+               turning_b = turning(island, pair.robot_b, pair.shape_b, b);
+    if (!turns_far<double>(*a.shape, a.X.R, turning_a, dt) &&
+        !turns_far<double>(*b.shape, b.X.R, turning_b, dt))
+        return;
     if (first_) turned_.push_back({pair, least, contacts.front()->normal});
     const std::size_t known = hits_.size();
     const auto see = [&](const Vec3& normal, const Vec3& p_W, double gap) {
@@ -252,9 +270,15 @@ void SecondLook::find_turned(const SolvedIsland& island, std::span<const Contact
         return;
     }
     const Manifold m = collide(*a.shape, a.at(dt), *b.shape, b.at(dt), 0);
-    const bool is_behind =
-        std::ranges::all_of(contacts, [&](const Contact* c) { return dot(c->normal, m.n_W) < 0; });
-    if (m.count > 0 && is_behind && add_first_hit(island, pair, contacts.front()->normal, a, b)) return;
+    const bool is_behind = m.count > 0 && std::ranges::all_of(contacts, [&](const Contact* c) {
+                               return dot(c->normal, m.n_W) < 0;
+                           });
+    const auto large = [&](int robot, const Vec3& w) {
+        return robot >= 0 && is_large_turn(*island.robots[static_cast<std::size_t>(robot)].type, w, dt);
+    };
+    // Apart at the end, they may still have gone through each other.
+    const bool is_apart = m.count == 0 && (large(pair.robot_a, turning_a) || large(pair.robot_b, turning_b));
+    if ((is_behind || is_apart) && add_first_hit(island, pair, contacts.front()->normal, a, b)) return;
     for (int i = 0; i < m.count; ++i)
         see(m.n_W, m.points[static_cast<std::size_t>(i)].p_W, m.points[static_cast<std::size_t>(i)].gap);
     set_time();
@@ -264,7 +288,17 @@ void SecondLook::find_turned(const SolvedIsland& island, std::span<const Contact
 bool SecondLook::start(const SolvedIsland& island) {
     const std::size_t count = island.robots.size();
     if (moved_.size() < count)
-        moved_.resize(count), is_moved_.resize(count), turns_.resize(count), struck_.resize(count);
+        moved_.resize(count), is_moved_.resize(count), turns_.resize(count), struck_.resize(count),
+            drifts_.resize(count), large_turns_.resize(count);
+    for (std::size_t m = 0; m < island.members.size(); ++m) {
+        const std::uint32_t robot = island.members[m];
+        drifts_[robot] = island.drifts[m], large_turns_[robot] = island.large_turns[m];
+    }
+    const auto is_fixed = [&](const Contact& hit) {
+        return hit.robot_b < 0 || !island.robots[static_cast<std::size_t>(hit.robot_a)].type->free_base ||
+               !island.robots[static_cast<std::size_t>(hit.robot_b)].type->free_base;
+    };
+    anchored_ = island.anchored || std::ranges::any_of(hits_, is_fixed);
     bool any = false;
     for (const std::uint32_t m : island.members) {
         const RobotType& type = *island.robots[m].type;

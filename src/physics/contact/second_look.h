@@ -24,7 +24,11 @@ struct SolvedIsland {
     std::span<const int> offsets;              // by robot: first degree of freedom in the island
     std::span<const NearMiss> near_misses;     // of the group
     std::span<const Contact* const> contacts;  // of the island, with the solved velocities' impulses
+    std::span<const double> velocity;          // solved
     std::span<const double> displacement;      // displacement over dt
+    std::span<const char> drifts;              // by member: takes the kick-drift step
+    std::span<const char> large_turns;         // by member: a lone body that turns far in the tick
+    bool anchored = false;                     // something pushes it that does not move freely
     FreeCourses& free_courses;                 // of the group
 };
 
@@ -71,15 +75,19 @@ class SecondLook {
     bool is_bent(const SolvedIsland& island, int robot) const;
     const Mechanics<double>& moved(const SolvedIsland& island, int robot);
     Course course(const SolvedIsland& island, int robot, std::uint32_t shape);
+    Vec3 turning(const SolvedIsland& island, int robot, std::uint32_t shape, const Course& course);
     void add(const SolvedIsland& island, const ShapePair& pair, const Course& a, const Course& b, double t,
              const Vec3& normal, const Vec3& p_W, double gap);
 
     std::vector<Mechanics<double>> moved_;  // by robot: with the velocities of the displacement
     std::vector<char> is_moved_, turns_;    // by robot
+    std::vector<char> drifts_;              // by robot: takes the kick-drift step
+    std::vector<char> large_turns_;         // by robot
     std::vector<char> struck_;              // by robot: it may move further than contacts were searched for
     std::vector<Contact> hits_;
     std::size_t known_ = 0;  // hits that have rows
     bool first_ = false;     // round
+    bool anchored_ = false;  // by what is known so far
     std::vector<Turned> turned_;
     std::vector<std::uint32_t> scenery_;
     RobotWork placed_;  // where a robot is after the tick

@@ -3,6 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
+
+#include "physics/dynamics/fast_turning.h"
 
 namespace roboss {
 namespace {
@@ -28,26 +31,54 @@ Vec3 solve(const Mat3& I, const Vec3& b) {
     return determinant > 0 ? (c0 * b.x + c1 * b.y + c2 * b.z) * (1.0 / determinant) : Vec3{};
 }
 
-/// The centre of mass flies straight; w' = I^-1 (I w x w) in the body's axes (Euler).
-Course free_course(const Mechanics<double>& robot, std::size_t number) {
+/// The moment of inertia across the axis of a body of revolution, whose mass is so distributed that the axis
+/// of the shape is its own; 0 for others.
+double moment_across_axis(const Body& body, const BodyShape& shape) {
+    constexpr double kSame = 1e-9;
+    const ShapeKind kind = shape.shape.kind;
+    if (kind != ShapeKind::kCylinder && kind != ShapeKind::kCapsule) return 0;
+    const Mat3& I = body.inertia_C;
+    const Vec3 axis = shape.X_BS.R.col(2), along = I * axis, arm = shape.X_BS.p - body.p_BC;
+    const double axial = dot(axis, along), trace = I.r0.x + I.r1.y + I.r2.z, across = 0.5 * (trace - axial);
+    const auto differs = [&](const Vec3& row, double unit_x, double unit_y, double unit_z, double part) {
+        const Vec3 even = Vec3{unit_x, unit_y, unit_z} * across + axis * ((axial - across) * part);
+        return norm(row - even) > kSame * trace;
+    };
+    if (differs(I.r0, 1, 0, 0, axis.x) || differs(I.r1, 0, 1, 0, axis.y) || differs(I.r2, 0, 0, 1, axis.z))
+        return 0;
+    return norm(cross(arm, axis)) <= kSame * bounding_radius(shape.shape) ? across : 0;
+}
+
+/// The centre of mass flies straight; w' = I^-1 (I w x w) in the body's axes (Euler). The axis of a top turns
+/// about its angular momentum, evenly, however fast it spins about the axis itself: that moves no point of
+/// the surface outwards and is left out where the turn is large.
+Course free_course(const Mechanics<double>& robot, std::size_t number, const Spatial& velocity, double dt) {
     const BodyShape& shape = robot.type->shapes[number];
     const Transform& X = robot.shapes[number].X_WS;
     const BodyWork& body = robot.bodies[0];
-    const Mat3 &R = body.X_WB.R, &I = robot.type->bodies[0].inertia_C;
-    const Vec3& w_W = body.velocity.angular;
-    const Vec3 w = transpose_times(R, w_W), centre = body.X_WB * robot.type->bodies[0].p_BC;
-    const Vec3 rate = solve(I, cross(I * w, w));
-    const Vec3 curve = solve(I, cross(I * rate, w) + cross(I * w, rate)) + cross(w, rate);
-    return {&shape.shape,
-            X,
-            centre,
-            w_W,
-            body.velocity.linear + cross(w_W, centre - robot.origin),
-            {},
-            turning_speed<double>(shape.shape, X.R, w_W),
-            R * rate,
-            R * curve,
-            {}};
+    const Body& info = robot.type->bodies[0];
+    const Mat3 &R = body.X_WB.R, &I = info.inertia_C;
+    const Vec3& w_W = velocity.angular;
+    const Vec3 w = transpose_times(R, w_W), centre = body.X_WB * info.p_BC, spin = I * w;
+    Course course{&shape.shape,
+                  X,
+                  centre,
+                  w_W,
+                  velocity.linear + cross(w_W, centre - robot.origin),
+                  {},
+                  turning_speed<double>(shape.shape, X.R, w_W),
+                  {},
+                  {},
+                  {}};
+    const double across = is_large_turn(*robot.type, w_W, dt) ? moment_across_axis(info, shape) : 0;
+    if (across > 0) {
+        course.angular = R * spin * (1 / across);
+        return course;
+    }
+    const Vec3 rate = solve(I, cross(spin, w));
+    const Vec3 curve = solve(I, cross(I * rate, w) + cross(spin, rate)) + cross(w, rate);
+    course.angular_rate = R * rate, course.angular_curve = R * curve;
+    return course;
 }
 
 bool is_fast(const Course& a, const Course& b, double dt) {
@@ -57,7 +88,32 @@ bool is_fast(const Course& a, const Course& b, double dt) {
 
 }  // namespace
 
-Course course_of(const Mechanics<double>& robot, std::size_t number) {
+Course course_of(const Mechanics<double>& robot, std::size_t number, double dt) {
+    if (robot.type->shapes[number].body < 0 || !turns_freely(robot)) return steady_course_of(robot, number);
+    return free_course(robot, number, robot.bodies[0].velocity, dt);
+}
+
+Course shifted_course_of(const Mechanics<double>& robot, std::size_t number, const Spatial& solved,
+                         double dt) {
+    if (robot.type->shapes[number].body < 0 || !turns_freely(robot)) return steady_course_of(robot, number);
+    Course course = free_course(robot, number, solved, dt);
+    const Vec3 centre = course.origin - robot.origin;
+    const Spatial& all = robot.bodies[0].velocity;
+    course.linear = all.linear + cross(all.angular, centre);
+    const Vec3 extra = all.angular - solved.angular;
+    if (extra == Vec3{}) return course;
+    const Vec3 free = course.turn(dt), turned = logarithm(exponential(extra * dt) * exponential(free));
+    const double angle = norm(turned);
+    const Vec3 round = angle > 0 ? turned * (2 * std::numbers::pi / angle) : Vec3{};
+    const double rounds =
+        angle > 0 ? std::round(dot(free + extra * dt - turned, turned) / (2 * std::numbers::pi * angle)) : 0;
+    course.angular = (turned + round * rounds) * (1 / dt);
+    course.angular_rate = course.angular_curve = {};
+    course.turning = turning_speed<double>(*course.shape, course.X.R, course.angular);
+    return course;
+}
+
+Course steady_course_of(const Mechanics<double>& robot, std::size_t number) {
     const BodyShape& shape = robot.type->shapes[number];
     const Transform& X = robot.shapes[number].X_WS;
     if (shape.body < 0 && robot.type->kinematic)
@@ -73,7 +129,6 @@ Course course_of(const Mechanics<double>& robot, std::size_t number) {
                 {}};
     if (shape.body < 0 || robot.bodies.empty()) return resting_course(shape.shape, X);
     const BodyWork& body = robot.bodies[static_cast<std::size_t>(shape.body)];
-    if (turns_freely(robot)) return free_course(robot, number);
     const Vec3 arm = body.X_WB.p - robot.origin, &w = body.velocity.angular;
     const Vec3 linear = body.velocity.linear + cross(w, arm);
     const Vec3 accelerated = body.bias.linear + cross(body.bias.angular, arm) + cross(w, linear);

@@ -18,8 +18,14 @@ constexpr double kFastDisplacement =
 constexpr double kNearly = 1e-4;  // m: what is nearer and not fast along the normal touches
 constexpr double kBlow = 1e-3;    // m in a tick, along the normal: fast
 
-/// The motion of a shape of a robot by the velocities in `robot`.
-Course course_of(const Mechanics<double>& robot, std::size_t shape);
+/// The motion of a shape of a robot in a tick by the velocities in `robot`: of a lone body, by Euler's
+/// equations.
+Course course_of(const Mechanics<double>& robot, std::size_t shape, double dt);
+/// The same where the angular velocities of bodies stay as they are: that of the explicit step.
+Course steady_course_of(const Mechanics<double>& robot, std::size_t shape);
+/// That of the kick-drift step: a lone body flies with the velocity `solved`, then it is shifted and turned
+/// by the rest of the velocity in `robot`.
+Course shifted_course_of(const Mechanics<double>& robot, std::size_t shape, const Spatial& solved, double dt);
 
 enum class Meeting {
     kAtOnce,  // as if the plane of the beginning were the other shape: exact for what touches or moves little

@@ -77,7 +77,7 @@ std::optional<Course> FreeCourses::find(const Model& model, const RobotWork& rob
 Course known_course(const Model& model, const RobotWork& robot, std::size_t number, std::size_t shape,
                     FreeCourses& free_courses) {
     const std::optional<Course> free = free_courses.find(model, robot, number, shape);
-    return free ? *free : course_of(robot, shape);
+    return free ? *free : course_of(robot, shape, model.dt_s);
 }
 
 }  // namespace roboss

@@ -265,6 +265,7 @@ class KickDrift {
         }
         if (!any) return;
         if (!type_.free_base) return displace(1);
+        if (solved_.flies_displaced) return fly_displaced();
         const BodySums before = sums();
         const Vec3 displacement = displaced().linear * (model_.dt_s / before.inertia.mass);
         gained_ = cross(displacement, before.momentum.linear);
@@ -280,6 +281,38 @@ class KickDrift {
             if (keeps_energy()) limit(before.energy(), now);
             if (now.inner_kinetic() <= kMoreByShift * before.inner_kinetic()) return;
         }
+    }
+
+    /// The velocity of the base goes with it from that orientation to the present one.
+    void turn_velocity(const Quat& from) {
+        const Quat turn = get_quat(state_.q.data() + 3) * conjugate(from);
+        const Vec3 angular = rotate(turn, {state_.v[0], state_.v[1], state_.v[2]});
+        for (std::size_t i = 0; i < 3; ++i) state_.v[i] = angular[i];
+    }
+
+    /// A lone body that something outside pushes goes the way of its displacement as it would fly with that
+    /// as its velocity, and has the velocity of the drift. Far turns about two axes one after the other would
+    /// lead elsewhere, and back from a hit to anywhere.
+    void fly_displaced() {
+        const Body& body = type_.bodies[0];
+        const Vec3 arm = rotate(get_quat(buffer_.held.q_start.data() + 3), body.p_BC);
+        const std::span<const double> d = solved_.displacement;
+        const Vec3 angular{d[0], d[1], d[2]}, linear{d[3], d[4], d[5]};
+        if (is_too_fast(norm_squared(angular))) return displace(1);
+        const Quat drifted = get_quat(state_.q.data() + 3);
+        const Vec3 w{state_.v[0], state_.v[1], state_.v[2]};
+        const Vec3 velocity =
+            Vec3{state_.v[3], state_.v[4], state_.v[5]} + cross(w, rotate(drifted, body.p_BC));
+        Vec3 centre = arm + (linear + cross(angular, arm)) * model_.dt_s;
+        for (std::size_t i = 0; i < 3; ++i) centre[i] += buffer_.held.q_start[i];
+        state_.q = buffer_.held.q_start;
+        state_.v.assign(d.begin(), d.end());
+        advance_steadily(model_, work_, {}, norm_squared(angular), buffer_);
+        for (std::size_t i = 0; i < 3; ++i) state_.v[i] = w[i];
+        turn_velocity(drifted);
+        const Vec3 turned = rotate(get_quat(state_.q.data() + 3), body.p_BC),
+                   moving = velocity - cross({state_.v[0], state_.v[1], state_.v[2]}, turned);
+        for (std::size_t i = 0; i < 3; ++i) state_.q[i] = centre[i] - turned[i], state_.v[3 + i] = moving[i];
     }
 
     /// Turns and bends the robot by a share of the extra displacement.

@@ -29,14 +29,15 @@ struct SolvedTick {
         load;                      // generalised impulses of rows, N s; those of locked joints are left out
     std::span<const char> locked;  // held at `held`
     std::span<const double> held;
-    bool isolated = false;  // nothing from outside pushes
-    bool passive = false;   // and is_passive
+    bool isolated = false;         // nothing from outside pushes
+    bool passive = false;          // and is_passive
+    bool flies_displaced = false;  // a lone body that turns far, pushed by what does not move freely
 };
 
 /// Moves the placed robot by one tick. Its momentum changes by the contacts' impulses and gravity alone, and
 /// by what is returned: angular momentum, N m s, about any fixed point, that comes of a displacement other
-/// than that of the velocity. Where it is isolated and passive, the sum of kinetic and potential energy grows
-/// by no more than 2e-5 of the kinetic a second.
+/// than that of the velocity. A velocity that flies_displaced turns with the body. Where it is isolated and
+/// passive, the sum of kinetic and potential energy grows by no more than 2e-5 of the kinetic a second.
 Vec3 advance_kick_drift(const Model& model, RobotWork& work, const SolvedTick& solved, FreeBuffer& buffer);
 
 /// Moves the placed robot, which nothing pushes and no row acts on, by one tick of the Runge-Kutta method
