@@ -115,6 +115,7 @@ std::vector<std::string> KheperaAdapter::due(double now_s) {
     std::string text(1, asked_);
     if (asked_ == 'D') {
         sent_ = wanted();
+        fastest_ = std::max(fastest_, fastest_now());
         text += "," + std::to_string(sent_[0]) + "," + std::to_string(sent_[1]);
         set_s_ = now_s;
         acknowledged_.reset();
@@ -180,7 +181,7 @@ bool KheperaAdapter::take_proximity(const std::vector<long>& values, double now_
 }
 
 /// Pulses in 10 ms, the faster wheel: what was ordered last or what the robot says.
-double KheperaAdapter::fastest() const {
+double KheperaAdapter::fastest_now() const {
     double most = 0;
     for (std::size_t i = 0; i < 2; ++i) {
         most = std::max(most, std::fabs(static_cast<double>(sent_[i])));
@@ -204,12 +205,12 @@ bool KheperaAdapter::take_counts(const Counts& counts, double now_s) {
     };
     constexpr double kAny = KheperaUnits::kMostSpeed;
     bool anew = reset_ || !counts_;
-    if (!anew && is_far(*counts_, counts_s_, fastest())) {
+    if (!anew && is_far(*counts_, counts_s_, fastest_)) {
         const bool agrees = suspicions_ > 0 && !is_far(suspicion_, suspicion_s_, kAny);
-        suspicions_ = agrees ? suspicions_ + 1 : 1;
+        if (!agrees) suspicions_ = 0, restarted_ = is_far(*counts_, counts_s_, kAny);
         suspicion_ = counts, suspicion_s_ = now_s;
-        if (suspicions_ < kAgreed) return false;
-        anew = is_far(*counts_, counts_s_, kAny);
+        if (++suspicions_ < kAgreed) return false;
+        anew = restarted_;
     }
     const Counts before = counts_.value_or(Counts{});
     Counts moved{};
@@ -224,12 +225,14 @@ bool KheperaAdapter::take_counts(const Counts& counts, double now_s) {
     count_on(moved[0], moved[1], now_s);
     counts_ = counts, counts_s_ = now_s;
     suspicions_ = 0, reset_ = false;
+    fastest_ = fastest_now();
     return true;
 }
 
 void KheperaAdapter::take_speeds(const std::vector<long>& speeds) {
     for (std::size_t i = 0; i < 2; ++i)
         readings_.joints[wheels_[i]].velocity = static_cast<double>(speeds[i]) * KheperaUnits::kSpeed;
+    fastest_ = std::max(fastest_, fastest_now());
 }
 
 /// Odometry: an arc of a circle, by the mean heading.

@@ -44,7 +44,7 @@ class KheperaAdapter final : public DeviceAdapter {
     bool take_numbers(char letter, const std::vector<long>& numbers, double now_s);
     bool take_proximity(const std::vector<long>& values, double now_s);
     bool take_counts(const Counts& counts, double now_s);
-    double fastest() const;
+    double fastest_now() const;
     void take_speeds(const std::vector<long>& speeds);
     void count_on(long left, long right, double now_s);
     void note_reboot(const std::string& said, double now_s);
@@ -64,6 +64,8 @@ class KheperaAdapter final : public DeviceAdapter {
     std::optional<Counts> counts_;  // of pulses, that were believed last
     Counts suspicion_{};            // that jumped: believed if the next ones agree
     int suspicions_ = 0;            // so many of them agree
+    bool restarted_ = false;        // no wheel turns as fast as the first of them says
+    double fastest_ = 0;            // pulses in 10 ms, since the counts that were believed last
     Counts offset_{};               // of the joints' positions, in pulses: a reboot sets counts to zero
     bool reset_ = false;            // the next counts start from zero
     std::string part_;              // of a line

@@ -43,13 +43,16 @@ void IslandParts::ByPart::sort(std::size_t parts, std::span<const std::uint32_t>
 SolveReport IslandParts::solve(Problem p, std::vector<double>& v, const Team& team, std::size_t solved) {
     const std::size_t count = p.robots.size();
     largest_part_ = static_cast<int>(count);
+    SolveReport report;
+    in_parts_ = false;
+    if (is_plain_body(p) && solvers_[0].islands.solve_plainly(p, v, report)) return report;
     if (!has_parts(p)) {
         solvers_[0].islands.share_with(team);
         return solvers_[0].islands.solve(p, v);
     }
+    in_parts_ = true;
     prepare(p, v.size());
     join_by_pushing(p, v);
-    SolveReport report;
     changed_.assign(count, solved == 0 ? 1 : 0);
     if (solved > 0) mark_open(p, solved);
     largest_part_ = 0;
@@ -67,14 +70,24 @@ SolveReport IslandParts::solve(Problem p, std::vector<double>& v, const Team& te
 }
 
 bool IslandParts::has_parts(const Problem& p) {
-    return p.robots.size() > 1 && !p.rows.contacts.empty();
+    const bool is_alone = p.robots.size() == 1 && !BodySolver::can_solve(*p.robots[0]);
+    return !is_alone && !p.rows.contacts.empty();
+}
+
+/// A free body that nothing but plain contacts along one normal pushes.
+bool IslandParts::is_plain_body(const Problem& p) {
+    return p.robots.size() == 1 && BodySolver::can_solve(*p.robots[0]) && !p.rows.contacts.empty() &&
+           p.rows.couplings.empty() && p.rows.angulars.empty() &&
+           std::ranges::all_of(p.rows.contacts,
+                               [](const ContactRow& row) { return BodySolver::can_solve(row); }) &&
+           newton::have_one_normal<double>(p.rows);
 }
 
 void IslandParts::profile_friction(const Problem& p, SolverProfile& profile) const {
     const auto add = [&](const friction::BoundError<double>& error) {
         if (error.largest > 0) profile.add_friction(error.relative(), p.accuracy.friction_tolerance);
     };
-    if (!has_parts(p)) return add(friction::bound_error(p.rows));
+    if (!in_parts_) return add(friction::bound_error(p.rows));
     for (std::size_t part = 0; part + 1 < robots_.first.size(); ++part) {
         friction::BoundError<double> error;
         for (const std::uint32_t c : contacts_.of(part)) error.add(p.rows.contacts[c]);

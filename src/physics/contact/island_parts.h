@@ -69,6 +69,7 @@ class IslandParts {
     void mark_open(const Problem& p, std::size_t solved);
     void sort_by_parts(const Problem& p);
     static bool has_parts(const Problem& p);
+    static bool is_plain_body(const Problem& p);
     void list_changed(const Problem& p, const Team& team);
     void solve_changed(const Problem& p, const Team& team, std::vector<double>& v, SolveReport& report);
     SolveReport solve_part(const Problem& p, std::size_t part, PartSolver& s, std::vector<double>& v,
@@ -83,6 +84,7 @@ class IslandParts {
     }
 
     UnionFind joined_;
+    bool in_parts_ = false;  // the last call solved them
     int largest_part_ = 0;
     std::vector<std::uint32_t> robot_of_;     // by degree of freedom
     std::vector<Ends> ends_;                  // by contact

@@ -18,7 +18,7 @@ class LaneContacts {
     LaneContacts(const LaneContacts&) = delete;
     LaneContacts& operator=(const LaneContacts&) = delete;
 
-    /// A lane's robot. Before find(), its origin, its shapes and the origins, velocities and bias of its
+    /// A lane's robot. Before find(), its origin, its shapes and the poses, velocities and bias of its
     /// bodies are to be filled in; `box` holds all shapes.
     RobotWork& start(const Model& model, std::size_t lane, const LaneRobot& robot, const Aabb& box);
     /// The contacts of a lane with the scenery, with what the last tick remembers. False if it has near

@@ -259,6 +259,9 @@ class LaneStep final : public LaneStepper {
     }
     Aabb box_of(std::size_t i) const { return box_of(placed().box, i); }
 
+    static Transform transform_of(const TransformT<Wide>& X, std::size_t i) {
+        return {{vector_of(X.R.r0, i), vector_of(X.R.r1, i), vector_of(X.R.r2, i)}, vector_of(X.p, i)};
+    }
     static Spatial spatial_of(const SpatialT<Wide>& x, std::size_t i) {
         return {vector_of(x.angular, i), vector_of(x.linear, i)};
     }
@@ -268,15 +271,13 @@ class LaneStep final : public LaneStepper {
         for (std::size_t b = 0; b < work.bodies.size(); ++b) {
             const BodyWorkT<Wide>& from = placed().bodies[b];
             BodyWork& to = work.bodies[b];
-            to.X_WB.p = vector_of(from.X_WB.p, i);
+            to.X_WB = transform_of(from.X_WB, i);
             to.velocity = spatial_of(from.velocity, i), to.bias = spatial_of(from.bias, i);
         }
         for (std::size_t s = 0; s < work.shapes.size(); ++s) {
             const ShapeWorkT<Wide>& from = placed().shapes[s];
             ShapeWork& to = work.shapes[s];
-            const Mat3T<Wide>& R = from.X_WS.R;
-            to.X_WS = {{vector_of(R.r0, i), vector_of(R.r1, i), vector_of(R.r2, i)},
-                       vector_of(from.X_WS.p, i)};
+            to.X_WS = transform_of(from.X_WS, i);
             to.box = box_of(from.box, i);
             to.margin = lane(from.margin, i);
         }
@@ -370,8 +371,10 @@ class LaneStep final : public LaneStepper {
         else
             solution_ = state_.v();
         solved_ = {};
+        if (is_free_body()) leave_where(!newton::have_one_normal<T>(rows_), together);
         newton_.start(problem, solution_);
         leave_where(!newton_.solve(problem, together, solution_, solved_), together);
+        if (is_free_body()) leave_where(!newton::meets_tolerances(problem, solved_.residual), together);
         pushed_ = false;
         take_impulses();
         leave_isolated_robots(together);
@@ -427,6 +430,7 @@ class LaneStep final : public LaneStepper {
         SolveReportT<T> report;
         newton_.start(problem, displacement_);
         leave_where(!newton_.solve(problem, together, displacement_, report), together);
+        if (is_free_body()) leave_where(!newton::meets_tolerances(problem, report.residual), together);
         solved_.iterations += report.iterations;
         for (const ContactRowT<T>& row : rows_.contacts) pushed_ = pushed_ | (row.normal.impulse > T(0));
         leave_where(corrects_too_fast(), together);

@@ -33,6 +33,7 @@ bool rests_in_lanes(const Model& model, const RobotType& type, const RobotState&
     if (model.sleep && state.rest.still_ticks > 0) return false;
     const bool on_plain_ground = std::ranges::all_of(state.contacts, [&](const ContactMemory& c) {
         return c.other_robot == RobotId::kNone && c.other_shape < model.statics.size() &&
+               c.shape < type.shapes.size() &&
                LaneContacts::is_plain(model, type.shapes[c.shape], c.other_shape);
     });
     if (!on_plain_ground) return false;

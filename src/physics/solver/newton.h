@@ -66,6 +66,27 @@ struct Plan {
     int checks = 4;         // of the friction bounds, once momentum balances
 };
 
+/// Of momentum and, where it is not given, of friction.
+template <class T>
+MaskOf<T> meets_tolerances(const SolveProblem<T>& p, const T& residual) {
+    const MaskOf<T> balances = residual <= larger(T(p.accuracy.tolerance), T(kFinest<T>));
+    if (p.position) return balances;
+    const T most = larger(T(p.accuracy.friction_tolerance), T(kFinest<T>));
+    return balances & (friction::bound_error(p.rows).relative() <= most);
+}
+
+/// Whether all contacts of a free body push along one normal. Where they do not, Newton's method with
+/// friction bounds in between often ends without a solution.
+template <class T>
+MaskOf<T> have_one_normal(const IslandRowsT<T>& rows) {
+    MaskOf<T> differ = false;
+    for (const ContactRowT<T>& row : rows.contacts)
+        for (std::size_t i = 3; i < 6; ++i)
+            differ =
+                differ | !equal(rows.columns.n[row.first + i], rows.columns.n[rows.contacts[0].first + i]);
+    return !differ;
+}
+
 }  // namespace newton
 
 /// `Matrix`: of Newton's method, as TreeHessian.
@@ -328,7 +349,10 @@ bool Newton<T, Matrix>::solve_coupled(const SolveProblem<T>& p, Lockstep<T>& tog
     for (int i = 0;; ++i) {
         const Mask there = report.residual <= tolerance(p);
         if (together.all(there)) return true;
-        if (i == plan_.coupled_steps) break;
+        if (i == plan_.coupled_steps) {
+            if (together(there)) return true;
+            break;
+        }
         const T before = report.residual;
         newton::set_curvatures(p.rows);
         const Mask slides = friction::couple_bounds(p.rows);

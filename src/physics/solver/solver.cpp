@@ -53,6 +53,20 @@ void IslandSolver::solve_any(const Problem& p, std::vector<double>& v, Report& r
     interior_point(p, v, report);
 }
 
+bool IslandSolver::solve_plainly(const Problem& p, std::vector<double>& v, SolveReport& report) {
+    v_before_ = v, contacts_before_ = p.rows.contacts;
+    Lockstep<double> alone;
+    Report solved;
+    plan_ = {};
+    start(p, v);
+    const bool balances = Newton::solve(p, alone, v, solved);
+    report = {static_cast<int>(solved.iterations), solved.residual};
+    if (balances && newton::meets_tolerances(p, solved.residual)) return true;
+    v = v_before_, p.rows.contacts = contacts_before_;
+    report.residual = 0;
+    return false;
+}
+
 SolveReport IslandSolver::solve(const Problem& p, std::vector<double>& v) {
     constexpr double kUseless = 1e-2;       // of the residual
     constexpr double kWrongFriction = 0.5;  // relative to the largest normal impulse

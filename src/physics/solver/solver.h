@@ -32,6 +32,9 @@ class IslandSolver : Newton<double, Hessian> {
     /// v (size n) starts as the velocities before the tick and ends as the solution; the rows end with their
     /// impulses.
     SolveReport solve(const Problem& problem, std::vector<double>& v);
+    /// A single robot that only contacts push, by Newton's method alone, with the bits of a lane. False where
+    /// that misses a tolerance (meets_tolerances()): then v and the rows are as before.
+    bool solve_plainly(const Problem& problem, std::vector<double>& v, SolveReport& report);
 
   private:
     using Report = SolveReportT<double>;
@@ -54,7 +57,8 @@ class IslandSolver : Newton<double, Hessian> {
 
     RowSweeps sweeps_;
     std::vector<double> start_bounds_;  // friction bounds of the last tick
-    std::vector<double> v_before_sweeps_;
+    std::vector<double> v_before_sweeps_, v_before_;
+    std::vector<ContactRow> contacts_before_;
     std::vector<double> carried_;   // normal impulses of the last tick
     std::vector<Pushing> pushing_;  // bounded rows, while the displacement is solved
     std::vector<double> changes_;   // interior point: steps of the impulses
