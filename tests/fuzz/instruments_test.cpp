@@ -10,6 +10,7 @@
 #include <support/mechanical_sums.h>
 #include <support/robots.h>
 
+#include "fuzz/energy_gauge.h"
 #include "fuzz/property.h"
 #include "fuzz/shot.h"
 #include "fuzz/swept.h"
@@ -98,6 +99,67 @@ TEST(MechanicalSums, OfRandomMechanismsStayOrFallAsTheStepShrinks) {
             EXPECT_LT(run_energy(request).figure, 1e-4) << kind << ", seed " << seed;
         }
     }
+}
+
+/// A mass of 1 kg on a spring of 1 N/m, and what a gauge reads of its first revolutions.
+struct Oscillator {
+    double q = 1, v = 0;
+    test::MechanicalSums sums(double at) const {
+        test::MechanicalSums sums;
+        sums.kinetic = 0.5 * v * v, sums.stored = 0.5 * at * at;
+        return sums;
+    }
+    /// Most growth; `step` moves the oscillator by one tick.
+    template <class Step>
+    double most_growth(double dt, Step step) {
+        constexpr double kTime = 20;
+        EnergyGauge gauge(sums(q), false);
+        double most = 0;
+        for (double t = 0; t < kTime; t += dt) {
+            const double before = q;
+            step(*this);
+            most = std::fmax(most, gauge.read(sums(before), sums(q)));
+        }
+        return most;
+    }
+};
+
+/// Semi-implicit Euler keeps v^2 + q^2 - dt q v, so the energy at the end of a tick swings by dt; with the
+/// mean of the potential energies before and after the tick it is (v^2 + q^2 - dt q v) / 2 + (dt v / 2)^2.
+TEST(EnergyGauge, IsBlindToTheSwingOfSemiImplicitEuler) {
+    constexpr double kDt = 0.02;
+    const auto step = [](Oscillator& o) { o.v -= kDt * o.q, o.q += kDt * o.v; };
+    EXPECT_LT(Oscillator{}.most_growth(kDt, step), 1.01 * kDt * kDt / 2);
+    Oscillator swinging;
+    EnergyReading at_end(0.5, false);
+    double most = 0;
+    for (int i = 0; i < 1000; ++i) {
+        step(swinging);
+        most = std::fmax(most, at_end.read(swinging.sums(swinging.q).energy(), 0, 0.5));
+    }
+    EXPECT_NEAR(most, kDt, 0.05 * kDt) << "of one reading";
+}
+
+/// Explicit Euler multiplies the energy by 1 + dt^2 in each tick.
+TEST(EnergyGauge, SeesWhatExplicitEulerAdds) {
+    constexpr double kDt = 0.005;
+    const auto step = [](Oscillator& o) {
+        const double before = o.q;
+        o.q += kDt * o.v, o.v -= kDt * before;
+    };
+    const double gain = std::pow(1 + kDt * kDt, 20 / kDt) - 1;
+    EXPECT_NEAR(Oscillator{}.most_growth(kDt, step), gain, 0.1 * gain);
+}
+
+/// A jump of the coordinates or of the velocity stays in both readings.
+TEST(EnergyGauge, SeesAJump) {
+    Oscillator still;
+    EnergyGauge gauge(still.sums(1), false);
+    EXPECT_EQ(gauge.read(still.sums(1), still.sums(1)), 0);
+    EXPECT_NEAR(gauge.read(still.sums(1), still.sums(1.1)), 0.105, 1e-12) << "the mean, in its tick";
+    EXPECT_NEAR(gauge.read(still.sums(1.1), still.sums(1.1)), 0.21, 1e-12);
+    still.v = 0.1;
+    EXPECT_NEAR(gauge.read(still.sums(1.1), still.sums(1.1)), 0.22, 1e-12);
 }
 
 double least_gap(const World& world, const Vec3& way) {

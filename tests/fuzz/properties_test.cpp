@@ -89,6 +89,9 @@ TEST(Property, SeedsThatOnceFailedHold) {
     };
     const Once seeds[] = {
         {"energy", {1278, "room", 0.001, 100, 0}, 1},    // a tick that ends at its first hit, on scenery
+        {"energy", {306, "fleet", 0.001, 1, 0}, 10},     // rocking bodies, whose energy swings
+        {"energy", {70101, "fleet", 0.001, 10, 0}, 10},  // one that rolls off its centre
+        {"momentum", {106, "bare", 0.002, 10, 0}, 7},    // a slow tree whose joints whip round
         {"finite", {2469, "acting", 0.005, 100, 0}, 5},  // a large wing that spins
         // rods that an impact spins about their own axes; in 719 the rows of a hit stop that in the
         // displacement

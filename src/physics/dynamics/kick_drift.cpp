@@ -398,6 +398,33 @@ class KickDrift {
     Vec3 gained_;         // N m s, about any fixed point: by moving the centre of mass at once
 };
 
+/// True where the angular velocity of the base or the velocity of a joint changed by so much in one tick that
+/// the method's error counts.
+bool changed_suddenly(const Model& model, const RobotType& type, std::span<const double> before,
+                      std::span<const double> now) {
+    constexpr double kSudden = 1e-3;  // rad or m in a tick
+    for (std::size_t i = 0; i < now.size(); ++i) {
+        const bool is_linear = i >= 3 && i < static_cast<std::size_t>(type.base_nv());
+        if (!is_linear && !(std::fabs(now[i] - before[i]) * model.dt_s < kSudden)) return true;
+    }
+    return false;
+}
+
+/// The step of a slow robot, without guards. False, and the robot stays, where that may lose momentum: where
+/// the mass matrix is almost singular (a light link between heavy ones), joints whip round within a few
+/// ticks, however slowly they turned before.
+bool advance_unguarded(const Model& model, RobotWork& work, double fastest, FreeBuffer& buffer) {
+    const RobotType& type = *work.type;
+    RobotState& state = *work.state;
+    const bool may_whip = type.free_base && !type.dofs.empty();
+    HeldJoints& start = buffer.held;
+    if (may_whip) start.q_start = state.q, start.v_start = state.v;
+    advance_steadily(model, work, {}, fastest, buffer);
+    if (!may_whip || !changed_suddenly(model, type, start.v_start, state.v)) return true;
+    state.q = start.q_start, state.v = start.v_start;
+    return false;
+}
+
 }  // namespace
 
 bool is_passive(const Model& model, const RobotWork& work) {
@@ -428,7 +455,7 @@ void advance_freely(const Model& model, RobotWork& work, FreeBuffer& buffer) {
         advance_lone_body(model, fastest, work))
         return;
     const bool is_slow = fastest * model.dt_s * model.dt_s < slow * slow;
-    if (is_slow && !work.type->has_equalities()) return advance_steadily(model, work, {}, fastest, buffer);
+    if (is_slow && !work.type->has_equalities() && advance_unguarded(model, work, fastest, buffer)) return;
     SolvedTick free;
     free.isolated = true;
     free.passive = is_passive(model, work);

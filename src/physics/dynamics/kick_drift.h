@@ -41,8 +41,8 @@ struct SolvedTick {
 Vec3 advance_kick_drift(const Model& model, RobotWork& work, const SolvedTick& solved, FreeBuffer& buffer);
 
 /// Moves the placed robot, which nothing pushes and no row acts on, by one tick of the Runge-Kutta method
-/// (advance_steadily; a lone body: lone_body.h). Where it turns fast, momentum and energy are guarded as in
-/// advance_kick_drift.
+/// (advance_steadily; a lone body: lone_body.h). Where it turns fast, or a joint of a free robot changes its
+/// velocity suddenly, momentum and energy are guarded as in advance_kick_drift.
 void advance_freely(const Model& model, RobotWork& work, FreeBuffer& buffer);
 
 }  // namespace roboss
