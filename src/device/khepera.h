@@ -63,8 +63,8 @@ class KheperaAdapter final : public DeviceAdapter {
     double rebooted_s_ = kNever, suspicion_s_ = kNever;
     std::optional<Counts> counts_;  // of pulses, that were believed last
     Counts suspicion_{};            // that jumped: believed if the next ones agree
-    int suspicions_ = 0;            // so many of them agree
-    bool restarted_ = false;        // no wheel turns as fast as the first of them says
+    int suspicions_ = 0;            // number of successive counts that agree
+    bool restarted_ = false;        // the first of these is out of a wheel's reach
     double fastest_ = 0;            // pulses in 10 ms, since the counts that were believed last
     Counts offset_{};               // of the joints' positions, in pulses: a reboot sets counts to zero
     bool reset_ = false;            // the next counts start from zero

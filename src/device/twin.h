@@ -16,8 +16,7 @@ class Twin {
 
     /// Takes observations, and answers each with where the real robots are now. Never waits.
     void advance(Bus& bus);
-    /// From now on the robots stand where they are put: their devices have stopped, and nobody will put them
-    /// again.
+    /// From now on robots are placed with zero velocity. Call it when their devices have stopped.
     void stop() { stopped_ = true; }
     /// A robot as the run has it, for programs that ask for the others; null before the first observation.
     const RobotState* state(RobotId robot) const;

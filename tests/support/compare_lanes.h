@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <bit>
 #include <functional>
 
 #include <support/scenes.h>
@@ -61,7 +62,7 @@ inline void compare(World world, const Drive& drive, int ticks) {
     }
 }
 
-/// So many robots of a model, far from each other, each a little differently placed.
+/// `count` robots of a model, far from each other, each in a slightly different pose.
 inline World scattered(const ModelSpec& model, int count, double height, double dt_s = 2e-3) {
     World world = empty_world(dt_s);
     place(world, ground(surface(0.9)), "ground");
@@ -73,6 +74,20 @@ inline World scattered(const ModelSpec& model, int count, double height, double 
                                    {{5.0 * i, 0.3 * i, height + 1e-3 * i}, from_rpy(0, 0, 0.4 * i)},
                                    {}});
     return world;
+}
+
+/// Steps all robots in lanes, and only there, for some ticks; the number of robot steps that were taken.
+inline int step_only_in_lanes(Simulation& sim, Precision precision, std::size_t width, int ticks,
+                              StepReport& report) {
+    const auto stepper = make_lane_stepper(precision, width);
+    std::vector<LaneRobot> robots;
+    for (std::size_t r = 0; r < sim.states.size(); ++r)
+        robots.push_back({sim.ids[r], &sim.states[r], &sim.bounds[r], false, {}});
+    StageClock clock;
+    int stepped = 0;
+    for (int i = 0; i < ticks; ++i)
+        stepped += std::popcount(stepper->step(*sim.model, robots, report, clock));
+    return stepped;
 }
 
 }  // namespace roboss::test

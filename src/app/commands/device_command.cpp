@@ -184,7 +184,7 @@ class DeviceProcess {
         if (twin_) leave_run();
     }
 
-    /// The twins would roll on with their last velocities.
+    /// Places the twins once more, at rest: they would keep their last velocities.
     void leave_run() {
         twin_->stop();
         const double end = now_s() + 0.5;

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "physics/bodies/body_kernel.h"
+#include "physics/dynamics/lone_body.h"
 #include "physics/solver/rows.h"
 #include "physics/solver/slip_disc.h"
 #include "physics/solver/solver.h"
@@ -25,9 +26,7 @@ struct BodyPart {
 class BodySolver {
   public:
     /// True for a single free body.
-    static bool can_solve(const Mechanics<double>& robot) {
-        return robot.type->free_base && robot.type->nv == 6;
-    }
+    static bool can_solve(const Mechanics<double>& robot) { return is_free_body(*robot.type); }
     /// False for friction with a slip compliance.
     static bool can_solve(const ContactRow& row) {
         return row.first != row.last && !slip_disc::slips(row.slip);

@@ -12,6 +12,7 @@
 #include "physics/dynamics/drag.h"
 #include "physics/dynamics/fast_turning.h"
 #include "physics/dynamics/fluid_forces.h"
+#include "physics/dynamics/lone_body.h"
 #include "physics/dynamics/velocity_forces.h"
 #include "physics/dynamics/warm_start.h"
 #include "physics/solver/row_math.h"
@@ -33,17 +34,13 @@ bool flies(const Model& model, const RobotWork& work, const IslandScratch& s) {
     return moves_freely(model, work) && !(s.group.keep_reactions && !work.type->loops.empty());
 }
 
-bool is_fixed(std::span<const RobotWork> robots, int robot) {
-    return robot < 0 || !robots[static_cast<std::size_t>(robot)].type->free_base;
-}
-
 /// Marks the robots that another robot or scenery pushes, by the impulses of the last solution, and notes
 /// whether the island is anchored: pushed by something that does not move freely.
 void mark_touched(std::span<const RobotWork> robots, IslandScratch& s) {
     for (std::size_t c = 0; c < s.rows.contacts.size(); ++c) {
         const Contact& contact = *s.contacts[c];
         if (s.rows.contacts[c].normal.impulse <= 0 || contact.robot_a == contact.robot_b) continue;
-        s.anchored |= is_fixed(robots, contact.robot_a) || is_fixed(robots, contact.robot_b);
+        s.anchored |= touches_fixed(robots, contact);
         s.touched[static_cast<std::size_t>(contact.robot_a)] = 1;
         if (contact.robot_b >= 0) s.touched[static_cast<std::size_t>(contact.robot_b)] = 1;
     }
@@ -216,7 +213,7 @@ bool slides_only(std::span<const RobotWork> robots, const IslandScratch& s,
     for (std::size_t m = 0; m < members.size(); ++m) {
         const RobotType& type = *robots[members[m]].type;
         if (type.nv == 0) continue;
-        if (!type.free_base || type.nv != 6) return false;
+        if (!is_free_body(type)) return false;
         const auto offset = static_cast<std::size_t>(s.offsets[m]);
         const auto own = [&](const std::vector<double>& v) { return std::span(v).subspan(offset, 6); };
         if (!hardly_turns<double>(own(s.v_before)) || !hardly_turns<double>(own(s.v))) return false;
@@ -259,11 +256,8 @@ void hold_displacement(IslandScratch& s, bool split) {
 void stop_at_first_hit(const Model& model, std::span<RobotWork> robots, IslandScratch& s,
                        std::span<const std::uint32_t> members) {
     const double share = s.look.first_time() / model.dt_s;
-    const auto flies = [&](int robot) {
-        return robot >= 0 && robots[static_cast<std::size_t>(robot)].type->free_base;
-    };
-    const bool free = !s.anchored && std::ranges::all_of(s.look.hits(), [&](const Contact& hit) {
-        return flies(hit.robot_a) && flies(hit.robot_b);
+    const bool free = !s.anchored && std::ranges::none_of(s.look.hits(), [&](const Contact& hit) {
+        return touches_fixed(robots, hit);
     });
     s.anchored |= !free;  // what is stopped gets its momentum from there
     for (const Contact& hit : s.look.hits()) {
@@ -301,7 +295,7 @@ void find_large_turns(const Model& model, std::span<const RobotWork> robots, Isl
             const double* w = v.data() + s.offsets[m];
             return is_large_turn(type, {w[0], w[1], w[2]}, model.dt_s);
         };
-        s.large_turns[m] = type.free_base && type.nv == 6 && (turns(s.v) || turns(s.displacement));
+        s.large_turns[m] = is_free_body(type) && (turns(s.v) || turns(s.displacement));
     }
 }
 
@@ -311,8 +305,7 @@ bool is_anchored(std::span<const RobotWork> robots, const IslandScratch& s) {
     if (std::ranges::find(s.large_turns, 1) == s.large_turns.end()) return anchored;
     for (std::size_t c = 0; c < s.contacts.size() && !anchored; ++c)
         anchored = s.rows.contacts[c].normal.impulse > 0 &&
-                   s.contacts[c]->robot_a != s.contacts[c]->robot_b &&
-                   (is_fixed(robots, s.contacts[c]->robot_a) || is_fixed(robots, s.contacts[c]->robot_b));
+                   s.contacts[c]->robot_a != s.contacts[c]->robot_b && touches_fixed(robots, *s.contacts[c]);
     return anchored;
 }
 

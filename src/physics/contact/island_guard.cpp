@@ -101,6 +101,13 @@ void turn_island(const Model& model, std::span<RobotWork> robots, std::span<cons
     add_momentum(robots, members, sums, {moment, {}}, origin);
 }
 
+bool touches_fixed(std::span<const RobotWork> robots, const Contact& contact) {
+    const auto is_fixed = [&](int robot) {
+        return robot < 0 || !robots[static_cast<std::size_t>(robot)].type->free_base;
+    };
+    return is_fixed(contact.robot_a) || is_fixed(contact.robot_b);
+}
+
 bool throws_back(const IslandRows& rows) {
     return std::ranges::any_of(rows.contacts, [](const ContactRow& row) { return throws_back<double>(row); });
 }

@@ -23,6 +23,9 @@ MaskOf<T> throws_back(const ContactRowT<T>& row) {
            (row.normal.target - row.normal.compliance * row.normal.impulse > T(kRebound));
 }
 
+/// Whether one side of the contact does not move freely: scenery, or a robot on a fixed base.
+bool touches_fixed(std::span<const RobotWork> robots, const Contact& contact);
+
 /// Sums over some robots about `origin`; `members` index `robots`. Overwrites `buffer`.
 BodySums sum_robots(const Model& model, std::span<RobotWork> robots, std::span<const std::uint32_t> members,
                     const Vec3& origin, RobotWork& buffer);

@@ -8,6 +8,7 @@
 #include "geometry/collide.h"
 #include "physics/contact/island_guard.h"
 #include "physics/dynamics/fast_turning.h"
+#include "physics/dynamics/lone_body.h"
 
 namespace roboss {
 namespace {
@@ -79,8 +80,8 @@ bool SecondLook::is_bent(const SolvedIsland& island, int robot) const {
     if (robot < 0) return false;
     const auto i = static_cast<std::size_t>(robot);
     const RobotWork& work = island.robots[i];
-    const bool lone = work.type->nv == 6 && work.type->free_base;
-    return is_pushed(island, robot) || !(lone || island.free_courses.knows(island.model, work, i));
+    return is_pushed(island, robot) ||
+           !(is_free_body(*work.type) || island.free_courses.knows(island.model, work, i));
 }
 
 /// The robot with the velocities of its displacement.
@@ -294,11 +295,9 @@ bool SecondLook::start(const SolvedIsland& island) {
         const std::uint32_t robot = island.members[m];
         drifts_[robot] = island.drifts[m], large_turns_[robot] = island.large_turns[m];
     }
-    const auto is_fixed = [&](const Contact& hit) {
-        return hit.robot_b < 0 || !island.robots[static_cast<std::size_t>(hit.robot_a)].type->free_base ||
-               !island.robots[static_cast<std::size_t>(hit.robot_b)].type->free_base;
-    };
-    anchored_ = island.anchored || std::ranges::any_of(hits_, is_fixed);
+    anchored_ = island.anchored || std::ranges::any_of(hits_, [&](const Contact& hit) {
+                    return touches_fixed(island.robots, hit);
+                });
     bool any = false;
     for (const std::uint32_t m : island.members) {
         const RobotType& type = *island.robots[m].type;

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "physics/dynamics/fast_turning.h"
+#include "physics/dynamics/lone_body.h"
 
 namespace roboss {
 namespace {
@@ -20,7 +21,7 @@ double approach_of(const Course& a, const Course& b, const Vec3& n, const Vec3& 
 bool turns_freely(const Mechanics<double>& robot) {
     constexpr double kSlow = 1;  // rad/s
     const RobotType& type = *robot.type;
-    return type.free_base && type.nv == 6 && type.bodies[0].mass > 0 &&
+    return is_free_body(type) && type.bodies[0].mass > 0 &&
            norm_squared(robot.bodies[0].velocity.angular) > kSlow * kSlow;
 }
 

@@ -6,6 +6,11 @@
 
 namespace roboss {
 
+/// A robot of one link that no joint holds.
+inline bool is_free_body(const RobotType& type) {
+    return type.free_base && type.nv == 6;
+}
+
 /// True for a robot of one body, neither rod nor needle, that no joint, drag, fluid or wrench acts on and
 /// that gravity pulls at its centre of mass.
 bool is_lone_body(const Model& model, const RobotWork& work);

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "physics/dynamics/fast_turning.h"
+#include "physics/dynamics/lone_body.h"
 #include "physics/dynamics/tree_factor.h"
 
 namespace roboss {
@@ -31,7 +32,7 @@ void limit_velocity_forces(const Model& model, RobotWork& work, FreeBuffer& buff
     constexpr double kShare = 0.002;    // of the kinetic energy
     constexpr double kTurn = 0.5;       // rad
     if (work.type->feels_flow) return;  // their forces depend on the velocities, too, and are to stay
-    const bool lone = work.type->free_base && work.type->nv == 6;
+    const bool lone = is_free_body(*work.type);
     const bool turns = lone || fastest_turn(work) * model.dt_s * model.dt_s > kTurn * kTurn;
     if (!turns || !turns_fast<double>(work, model.dt_s)) return;
     if (lone) return leave_out_gyroscopic_torque(model, work, buffer);

@@ -1,8 +1,6 @@
 // Free bodies that lie on scenery are stepped in lanes, with the bits of bodies by themselves.
 #include <gtest/gtest.h>
 
-#include <bit>
-
 #include <support/compare_lanes.h>
 #include <support/meshes.h>
 
@@ -213,19 +211,13 @@ TEST(LaneBodies, FallAsleepAtTheSameTick) {
 double share_in_lanes(std::size_t width, double speed) {
     Simulation sim(scattered(body_of(0, surface(0.05)), static_cast<int>(width), 0.05));
     sim.run(50);
-    std::vector<LaneRobot> robots;
     for (std::size_t r = 0; r < width; ++r) {
         EXPECT_TRUE(rests_in_lanes(*sim.model, sim.model->type_of(sim.ids[r]), sim.states[r]));
         sim.states[r].v[3] = speed;
-        robots.push_back({sim.ids[r], &sim.states[r], &sim.bounds[r], false, {}});
     }
-    const auto stepper = make_lane_stepper(Precision::kDouble, width);
     StepReport report;
-    StageClock clock;
-    int stepped = 0;
     constexpr int kTicks = 200;
-    for (int i = 0; i < kTicks; ++i)
-        stepped += std::popcount(stepper->step(*sim.model, robots, report, clock));
+    const int stepped = step_only_in_lanes(sim, Precision::kDouble, width, kTicks, report);
     return stepped / (static_cast<double>(kTicks) * static_cast<double>(width));
 }
 

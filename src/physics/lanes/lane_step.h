@@ -14,6 +14,7 @@
 #include "physics/dynamics/dynamics.h"
 #include "physics/dynamics/fast_turning.h"
 #include "physics/dynamics/joint_rows.h"
+#include "physics/dynamics/lone_body.h"
 #include "physics/dynamics/warm_start.h"
 #include "physics/lanes/lane_contacts.h"
 #include "physics/lanes/lane_state.h"
@@ -371,17 +372,17 @@ class LaneStep final : public LaneStepper {
         else
             solution_ = state_.v();
         solved_ = {};
-        if (is_free_body()) leave_where(!newton::have_one_normal<T>(rows_), together);
+        if (has_free_bodies()) leave_where(!newton::have_one_normal<T>(rows_), together);
         newton_.start(problem, solution_);
         leave_where(!newton_.solve(problem, together, solution_, solved_), together);
-        if (is_free_body()) leave_where(!newton::meets_tolerances(problem, solved_.residual), together);
+        if (has_free_bodies()) leave_where(!newton::meets_tolerances(problem, solved_.residual), together);
         pushed_ = false;
         take_impulses();
         leave_isolated_robots(together);
-        if (is_free_body()) leave_guarded(model, together);
+        if (has_free_bodies()) leave_guarded(model, together);
     }
 
-    bool is_free_body() const { return work_.type->free_base && work_.type->nv == 6; }
+    bool has_free_bodies() const { return is_free_body(*work_.type); }
 
     /// Free bodies whose energy is guarded (island_guard.h).
     void leave_guarded(const Model& model, Lockstep<T>& together) {
@@ -395,7 +396,7 @@ class LaneStep final : public LaneStepper {
         displacement_ = solution_;
         if (together.any() && together(split_))
             solve_displacement(problem(model), together);
-        else if (is_free_body())
+        else if (has_free_bodies())
             take_mean_displacement(model.dt_s);
         leave_free_robots(together);
         leave_far_turning_robots(model, together);
@@ -430,7 +431,7 @@ class LaneStep final : public LaneStepper {
         SolveReportT<T> report;
         newton_.start(problem, displacement_);
         leave_where(!newton_.solve(problem, together, displacement_, report), together);
-        if (is_free_body()) leave_where(!newton::meets_tolerances(problem, report.residual), together);
+        if (has_free_bodies()) leave_where(!newton::meets_tolerances(problem, report.residual), together);
         solved_.iterations += report.iterations;
         for (const ContactRowT<T>& row : rows_.contacts) pushed_ = pushed_ | (row.normal.impulse > T(0));
         leave_where(corrects_too_fast(), together);

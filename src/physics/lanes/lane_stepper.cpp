@@ -5,14 +5,11 @@
 
 #include "physics/contact/island_guard.h"
 #include "physics/dynamics/fast_turning.h"
+#include "physics/dynamics/lone_body.h"
 #include "physics/lanes/lane_contacts.h"
 
 namespace roboss {
 namespace {
-
-bool is_free_body(const RobotType& type) {
-    return type.free_base && type.nv == 6;
-}
 
 /// Nothing pushes it that lanes do not know.
 bool is_plain(const RobotType& type, const RobotState& state) {

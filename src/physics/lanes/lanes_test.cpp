@@ -2,8 +2,6 @@
 // way, however many fill a register.
 #include <gtest/gtest.h>
 
-#include <bit>
-
 #include <support/compare_lanes.h>
 #include <support/mechanisms.h>
 #include <support/meshes.h>
@@ -166,16 +164,9 @@ double share_in_lanes(Precision precision, std::size_t width) {
         for (std::size_t d = 0; d < sim.states[r].motors.size(); ++d)
             sim.set_motor(r, d, MotorMode::kVelocity, 10);
     sim.run(2);
-    const auto stepper = make_lane_stepper(precision, width);
-    std::vector<LaneRobot> robots;
-    for (std::size_t r = 0; r < sim.states.size(); ++r)
-        robots.push_back({sim.ids[r], &sim.states[r], &sim.bounds[r], false, {}});
     StepReport report;
-    StageClock clock;
-    int stepped = 0;
     constexpr int kTicks = 250;
-    for (int i = 0; i < kTicks; ++i)
-        stepped += std::popcount(stepper->step(*sim.model, robots, report, clock));
+    const int stepped = step_only_in_lanes(sim, precision, width, kTicks, report);
     EXPECT_GE(report.contacts, stepped * 4);
     return stepped / (static_cast<double>(kTicks) * static_cast<double>(width));
 }

@@ -66,13 +66,22 @@ struct Plan {
     int checks = 4;         // of the friction bounds, once momentum balances
 };
 
-/// Of momentum and, where it is not given, of friction.
+template <class T>
+T tolerance(const SolveProblem<T>& p) {
+    return larger(T(p.accuracy.tolerance), T(kFinest<T>));
+}
+template <class T>
+T friction_tolerance(const SolveProblem<T>& p) {
+    return larger(T(p.accuracy.friction_tolerance), T(kFinest<T>));
+}
+
+/// Of the balance of momentum (`residual`); of friction, too, unless its bounds are given, as for the
+/// displacement.
 template <class T>
 MaskOf<T> meets_tolerances(const SolveProblem<T>& p, const T& residual) {
-    const MaskOf<T> balances = residual <= larger(T(p.accuracy.tolerance), T(kFinest<T>));
+    const MaskOf<T> balances = residual <= tolerance(p);
     if (p.position) return balances;
-    const T most = larger(T(p.accuracy.friction_tolerance), T(kFinest<T>));
-    return balances & (friction::bound_error(p.rows).relative() <= most);
+    return balances & (friction::bound_error(p.rows).relative() <= friction_tolerance(p));
 }
 
 /// Whether all contacts of a free body push along one normal. Where they do not, Newton's method with
@@ -119,12 +128,6 @@ class Newton {
     void measure_from_targets(const SolveProblem<T>& p);
     void keep_start(const SolveProblem<T>& p, const std::vector<T>& v);
     void return_to_start(const SolveProblem<T>& p, std::vector<T>& v);
-    static T tolerance(const SolveProblem<T>& p) {
-        return larger(T(p.accuracy.tolerance), T(newton::kFinest<T>));
-    }
-    static T friction_tolerance(const SolveProblem<T>& p) {
-        return larger(T(p.accuracy.friction_tolerance), T(newton::kFinest<T>));
-    }
     void start_as_expected(const SolveProblem<T>& p, Lockstep<T>& together, std::vector<T>& v,
                            SolveReportT<T>& report);
     bool solve_coupled(const SolveProblem<T>& p, Lockstep<T>& together, std::vector<T>& v,
@@ -347,7 +350,7 @@ bool Newton<T, Matrix>::solve_coupled(const SolveProblem<T>& p, Lockstep<T>& tog
     };
     report.residual = tied_balance();
     for (int i = 0;; ++i) {
-        const Mask there = report.residual <= tolerance(p);
+        const Mask there = report.residual <= newton::tolerance(p);
         if (together.all(there)) return true;
         if (i == plan_.coupled_steps) {
             if (together(there)) return true;
@@ -363,7 +366,7 @@ bool Newton<T, Matrix>::solve_coupled(const SolveProblem<T>& p, Lockstep<T>& tog
         report.residual = tied_balance();
         double alpha = 1;
         const auto improves = [&] {
-            return (report.residual <= tolerance(p)) |
+            return (report.residual <= newton::tolerance(p)) |
                    (report.residual <= T(1 - plan_.progress * alpha) * before);
         };
         for (int h = 0; h < plan_.halvings && !together(improves()); ++h) {
@@ -456,18 +459,18 @@ MaskOf<T> Newton<T, Matrix>::iterate(const SolveProblem<T>& p, Lockstep<T>& toge
             }
             if (!settled) {
                 const T change = friction::update_bounds(p.rows);
-                settled =
-                    together(change <= friction_tolerance(p)) || ++bound_updates >= p.accuracy.friction_max;
+                settled = together(change <= newton::friction_tolerance(p)) ||
+                          ++bound_updates >= p.accuracy.friction_max;
                 report.residual = balance(p);
             }
             const bool stalls_now = settled && together((report.residual <= T(newton::kRounding<T>)) &
                                                         (report.residual > 0.9 * best));
             stalls = stalls_now ? stalls + 1 : 0;
             best = settled ? smaller(best, report.residual) : T(1);
-            if (settled && (together(report.residual <= tolerance(p)) || stalls >= 3)) {
+            if (settled && (together(report.residual <= newton::tolerance(p)) || stalls >= 3)) {
                 if (stays_settled) break;
                 const T error = friction::bound_error(p.rows).relative();
-                if (together(error <= friction_tolerance(p))) return true;
+                if (together(error <= newton::friction_tolerance(p))) return true;
                 if (checks == 0 || together(error < checked_error)) {
                     checked_error = error;
                     v_checked_ = v;
