@@ -104,7 +104,8 @@ def test_the_list_has_all_variables_with_their_units():
     (["record", "no_such.sdf", "*", "--until", "1", "-o", "a.parquet"], 1, "no-file"),
     (["record", ARM, "arm.elbo.effort", "--until", "1", "-o", "a.parquet"], 1, "unknown-name"),
     (["record", ARM, "*", "-o", "a.parquet"], 1, "no-end"),
-    (["record", ARM, "*", "--until", "1", "-o", "a.csv"], 1, "unknown-format"),
+    (["record", ARM, "*", "--until", "1", "-o", "a.xlsx"], 1, "unknown-format"),
+    (["record", ARM, "contact_points", "--until", "1", "-o", "a.csv"], 1, "no-numbers"),
     (["record", ARM, "--unti", "1"], 2, "wrong-usage"),
     (["analyse", "arm", CROSSROADS, "--robot", "car_0"], 1, "free-base"),
     (["analyse", "legs", ARM], 2, "wrong-usage"),
@@ -272,3 +273,20 @@ def test_a_walker_is_analysed_from_a_table(tmp_path):
     assert joint["Joint"] == "hip" and joint["rms [N m or N]"] == pytest.approx(3)
     cost, = tables["Mechanical cost of transport"]
     assert cost["Cost"] == pytest.approx(3 * 2 / (2 * 9.81))
+
+
+def test_a_table_that_is_recorded_reads_back_with_the_same_bits_units_and_facts(tmp_path):
+    patterns = ["car_3.pose", "car_3.laser.ranges", "car_*.speed"]
+    for name in ("run.csv", "run.parquet"):
+        command("record", CROSSROADS, *patterns, "--until", 0.1, "-o", tmp_path / name)
+    table, other = analysis.read(tmp_path / "run.csv"), analysis.read(tmp_path / "run.parquet")
+    assert table.columns == other.columns and table.facts == other.facts
+    assert np.array_equal(table.time, other.time) and np.array_equal(table.values, other.values, equal_nan=True)
+
+
+def test_a_vehicle_whose_controller_takes_velocities_is_driven_by_them(tmp_path):
+    from roboss.analysis.vehicle_driver import VehicleDriver, VehicleTest
+    driver = VehicleDriver(VehicleTest(roboss.example("drives.sdf"), "rover", runs=1, side=1.0))
+    assert driver.command == "cmd_vel" and driver.wheel_radius == pytest.approx(0.12, rel=0.01)
+    _, circle = driver.circle()
+    assert circle.radius == pytest.approx(2, rel=0.03) and circle.speed == pytest.approx(0.5, rel=0.02)

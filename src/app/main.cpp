@@ -1,6 +1,7 @@
 // The roboss command: one subcommand per file.
 #include <CLI/CLI.hpp>
 #include <csignal>
+#include <memory>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -11,6 +12,7 @@
 #include "app/commands/control_command.h"
 #include "app/commands/device_command.h"
 #include "app/commands/diff_command.h"
+#include "app/commands/help_text.h"
 #include "app/commands/journal_command.h"
 #include "app/commands/new_client_command.h"
 #include "app/commands/python_command.h"
@@ -46,8 +48,9 @@ int main(int argc, char** argv) {
         "machines.\n"
         "To start:  roboss check WORLD   then   roboss run WORLD --duration 10"};
     app.require_subcommand(1);
+    app.formatter(std::make_shared<roboss::HelpFormatter>());
     app.set_version_flag("--version", "roboss " ROBOSS_VERSION, "print the version");
-    app.set_help_all_flag("--help-all", "print the help of all subcommands");
+    app.set_help_all_flag("--help-all", "print every option, of all subcommands");
     std::signal(SIGXFSZ,
                 SIG_IGN);  // a file at its size limit gives its writer an error instead of ending the run
     int exit_code = 0;

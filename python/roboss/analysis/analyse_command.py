@@ -10,7 +10,7 @@ from ..errors import ArgumentError
 from .command import Parser, Progress, check_folder
 from .recorder import is_journal, record
 from .record_command import add_common
-from .recording import READABLE, Recording, read, write
+from .recording import SUFFIXES, Recording, read, write
 
 _ARM = """Examples:
   roboss analyse arm worlds/arm.sdf --robot arm --link tool          the whole test, some minutes
@@ -103,7 +103,7 @@ def run(options: Any) -> Any:
 def _arm(options: Any, progress: Progress) -> Any:
     from .arm import analyse_arm, exchangeability
     from .reports import arm_report
-    if Path(options.source).suffix in READABLE:
+    if Path(options.source).suffix in SUFFIXES:
         conditions, measured = _recorded_arm(options.source, options)
         others = [_recorded_arm(other, options)[0] for other in options.exchange]
         exchange = exchangeability([conditions[0], *(some[0] for some in others)]) if others else ()

@@ -1,23 +1,55 @@
-"""Tables of measurements as CSV: a line with the names of the columns, one of which is "time" (s), then numbers."""
+"""Tables of measurements as CSV: a line with the names of the columns, one of which is "time" (s), then numbers.
+
+A line "# roboss {JSON}" before the table holds what the other formats keep as metadata: facts, and for each column its
+variable, unit and frame. Tables of other programs do without it.
+"""
 from __future__ import annotations
 
 import csv
+import json
 import os
-from typing import Sequence, Union
+from typing import Any, Mapping, Sequence, Union
 
 import numpy as np
 
 from ..errors import ArgumentError
+from ..robots import Floats
 from .recording import POSE, TWIST, Column, Recording
 
 _GROUPS = {"pose": dict(POSE), "command": dict(POSE), "twist": dict(TWIST)}  # variables of several columns: units of their parts
 _UNITS = {"x": "m", "y": "m", "z": "m", "yaw": "rad", "speed": "m/s"}  # of ROBOT.x ...
 
 
+_HEAD = "# roboss "
+
+
+class CsvWriter:
+    """Writes samples to a table as they come. A context. Numbers are written in full, so reading gives the same bits."""
+
+    def __init__(self, path: Union[str, os.PathLike], columns: Sequence[Column], facts: Mapping[str, Any]):
+        self._stream = open(path, "w", newline="", encoding="utf-8")
+        notes = {column.name: [column.variable, column.unit, column.frame] for column in columns}
+        self._stream.write(_HEAD + json.dumps({"facts": dict(facts), "columns": notes}) + "\r\n")
+        self._rows = csv.writer(self._stream)
+        self._rows.writerow(["time", *(column.name for column in columns)])
+
+    def add(self, time: float, values: Floats, messages: Sequence[Any] = ()) -> None:
+        """Writes a sample: the values of the columns; NaN is an empty cell. A table takes no messages."""
+        self._rows.writerow([repr(float(time)), *("" if value != value else repr(value) for value in values.tolist())])
+
+    def __enter__(self) -> CsvWriter:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        """Ends the file: also after an error it has all samples so far."""
+        self._stream.close()
+
+
 def read_csv(path: Union[str, os.PathLike]) -> Recording:
     """Reads a table. Columns stand between commas, semicolons or tabs, whichever the first line has; empty cells are NaN.
     Lines that are empty or begin with # do not count. Names are those of `roboss record`: arm.tool.pose.x to arm.tool.pose.qw
-    are one variable, and so are the columns of X.command and X.twist, in any order. Units are known where the name tells them.
+    are one variable, and so are the columns of X.command and X.twist, in any order. Units are known where the name tells them,
+    or from the metadata of CsvWriter.
 
     Raises:
         ArgumentError: a line has too few or too many cells, or a cell is no number, or there is no column "time" (code
@@ -25,8 +57,11 @@ def read_csv(path: Union[str, os.PathLike]) -> Recording:
     """
     names: list[str] = []
     rows: list[list[float]] = []
+    head: dict[str, Any] = {"facts": {}, "columns": {}}
     with open(path, newline="", encoding="utf-8-sig") as stream:
         for number, line in enumerate(stream, 1):
+            if line.startswith(_HEAD) and not names:
+                head = json.loads(line[len(_HEAD):])
             if not line.strip() or line.startswith("#"):
                 continue
             where = f"{os.fspath(path)}:{number}"
@@ -40,11 +75,12 @@ def read_csv(path: Union[str, os.PathLike]) -> Recording:
         raise ArgumentError(f"'{os.fspath(path)}' is empty", "give a line with the names of the columns, then numbers", "bad-table")
     values = np.array(rows, dtype=float).reshape(len(rows), len(names))
     time = names.index("time")
-    columns = [_column(name) for name in names]
+    known = head["columns"]
+    columns = [Column(name, *known[name]) if name in known else _column(name) for name in names]
     variables = [column.variable for column in columns]
     order = sorted((number for number in range(len(names)) if number != time),
                    key=lambda number: (variables.index(variables[number]), _place(columns[number]), number))
-    return Recording(values[:, time], [columns[number] for number in order], values[:, order])
+    return Recording(values[:, time], [columns[number] for number in order], values[:, order], head["facts"])
 
 
 def _column(name: str) -> Column:

@@ -30,15 +30,15 @@ Examples:
   roboss plot run.parquet car_3.speed
 
 A world is run here; with --orders or --client it is first run by `roboss run` into a journal. A journal is replayed
-to the last bit, so its recording is that of the run. MCAP opens in Foxglove, Parquet in pandas, Polars, DuckDB."""
+to the last bit, so its recording is that of the run. MCAP opens in Foxglove, Parquet in pandas, Polars, DuckDB, CSV in every spreadsheet."""
 
 
 def parser() -> Parser:
     result = Parser("roboss record", examples=_EXAMPLES,
-                    description="Records variables of a world or of a journal over time, as Parquet or MCAP.")
+                    description="Records variables of a world or of a journal over time, as Parquet, MCAP or CSV.")
     result.add_argument("source", metavar="SOURCE", help="a world (SDFormat, URDF, MJCF) or a journal")
     result.add_argument("variables", nargs="*", metavar="VARIABLE", help="names or patterns (default: *.pose)")
-    result.add_argument("-o", "--output", metavar="FILE", help="ends in .parquet or .mcap")
+    result.add_argument("-o", "--output", metavar="FILE", help="ends in .parquet, .mcap or .csv (numbers only)")
     result.add_argument("--list", action="store_true", help="show the variables that there are, and record nothing")
     result.add_argument("--every", type=float, default=0.01, metavar="S", help="time between two samples (default: 0.01)")
     result.add_argument("--from", type=float, dest="start", metavar="S", help="time of the first sample (default: the first)")
@@ -61,7 +61,7 @@ def run(options: Any) -> Any:
         raise ArgumentError(f"a time of {options.every} s between samples", "give one above 0", "bad-value")
     if not options.list and (options.output is None or Path(options.output).suffix not in SUFFIXES):
         raise ArgumentError("no file to write" if options.output is None else f"a file named '{options.output}'",
-                            "give -o FILE.parquet or -o FILE.mcap", "unknown-format")
+                            "give -o FILE.parquet, FILE.mcap or FILE.csv", "unknown-format")
     existing(options.source)
     if not options.list:
         check_folder(options.output)

@@ -17,7 +17,7 @@ from ..kinematics import RobotModel
 from ..run import Run
 from ..simulation import Simulation
 from ..world import World, load
-from .recording import READABLE, Recording, existing, read, write, writer_of
+from .recording import SUFFIXES, Recording, existing, read, write, writer_of
 from .variables import Variables
 
 Source = Union[str, os.PathLike, World, Simulation, Journal]
@@ -49,7 +49,7 @@ def record(source: Source, patterns: Union[str, Iterable[str], None] = None, *, 
     >>> recording.values.shape                      # 0, 0.01 ... 0.1 s; 16 cars
     (11, 16)
     """
-    if not isinstance(source, (World, Simulation, Journal)) and Path(source).suffix in READABLE:
+    if not isinstance(source, (World, Simulation, Journal)) and Path(source).suffix in SUFFIXES:
         return _part(read(source), patterns, start, until)
     run, last, name = opened(source, start, until, branch)
     variables = Variables(run, patterns)
@@ -85,9 +85,10 @@ class Recorded:
 def record_file(source: Source, path: Union[str, os.PathLike], patterns: Union[str, Iterable[str], None] = None, *,
                 until: Optional[float] = None, every: float = 0.01, start: Optional[float] = None,
                 branch: Optional[int] = None, progress: Optional[Progress] = None, name: str = "") -> Recorded:
-    """Records variables of a run into a file (.parquet or .mcap) while it runs, so memory does not grow with its length.
+    """Records variables of a run into a file (.parquet, .mcap or .csv) while it runs, so memory does not grow with its length.
 
-    Takes messages, too: images, contact points, what radios heard (unless `every` is too long for them: `left_out`). After an error or Ctrl-C the file has all samples so far.
+    Takes messages, too, except in a table (.csv): images, contact points, what radios heard (unless `every` is too long for
+    them: `left_out`). After an error or Ctrl-C the file has all samples so far.
 
     Args:
         name: what the file calls the source; "": its path.
@@ -95,13 +96,14 @@ def record_file(source: Source, path: Union[str, os.PathLike], patterns: Union[s
 
     For instance `record_file("crossroads.sdf", "run.mcap", ["car_3.pose", "car_3.contact_points"], until=10)`.
     """
-    if not isinstance(source, (World, Simulation, Journal)) and Path(source).suffix in READABLE:
+    if not isinstance(source, (World, Simulation, Journal)) and Path(source).suffix in SUFFIXES:
         part = _part(read(source), patterns, start, until)
         write(part, path)
         ends = (float(part.time[0]), float(part.time[-1])) if len(part.time) else (0.0, 0.0)
         return Recorded(list(part.variables), len(part.columns), len(part.time), *ends)
     run, last, ending = opened(source, start, until, branch)
-    variables = Variables(run, patterns, messages=True, every=_ticks(run, every) * run.dt)
+    takes_messages = Path(path).suffix != ".csv"
+    variables = Variables(run, patterns, messages=takes_messages, every=_ticks(run, every) * run.dt)
     names = [*dict.fromkeys(c.variable for c in variables.columns), *(m.name for m in variables.messages.variables)]
     done = Recorded(names, len(variables.columns), first=run.time, left_out=tuple(variables.left_out))
     with writer_of(path, variables.columns, _facts(run, name or ending, variables), variables.messages.variables) as writer:

@@ -15,12 +15,12 @@ from ..names import unknown
 from ..robots import Floats
 
 if TYPE_CHECKING:
+    from .csv_file import CsvWriter
     from .mcap_file import McapWriter
     from .messages import MessageVariable
     from .parquet_file import ParquetWriter
 
-SUFFIXES = (".parquet", ".mcap")      # that are written
-READABLE = (*SUFFIXES, ".csv")         # that are read
+SUFFIXES = (".parquet", ".mcap", ".csv")  # that are written and read
 #: Parts of poses and twists, with their units.
 POSE = (("x", "m"), ("y", "m"), ("z", "m"), ("qx", ""), ("qy", ""), ("qz", ""), ("qw", ""))
 TWIST = (("vx", "m/s"), ("vy", "m/s"), ("vz", "m/s"), ("wx", "rad/s"), ("wy", "rad/s"), ("wz", "rad/s"))
@@ -129,17 +129,21 @@ def _expression(pattern: str) -> Callable[[str], Any]:
 
 
 def write(recording: Recording, path: Union[str, os.PathLike]) -> None:
-    """Writes a file; its name says the format: .parquet or .mcap. Raises ArgumentError for another name."""
+    """Writes a file; its name says the format: .parquet, .mcap or .csv. Raises ArgumentError for another name."""
     with writer_of(path, recording.columns, recording.facts) as writer:
         for time, values in zip(recording.time.tolist(), recording.values):
             writer.add(time, values)
 
 
 def writer_of(path: Union[str, os.PathLike], columns: Sequence[Column], facts: Mapping[str, Any],
-              messages: Sequence[MessageVariable] = ()) -> Union[ParquetWriter, McapWriter]:
-    """A writer of the format that the name of the file says, which takes one sample after the other. Raises ArgumentError for
-    another name."""
-    if _suffix(path) == ".parquet":
+              messages: Sequence[MessageVariable] = ()) -> Union[ParquetWriter, McapWriter, CsvWriter]:
+    """A writer of the format that the name of the file says, which takes one sample after the other. A table (.csv) takes no
+    messages. Raises ArgumentError for another name."""
+    suffix = _suffix(path)
+    if suffix == ".csv":
+        from .csv_file import CsvWriter
+        return CsvWriter(path, columns, facts)
+    if suffix == ".parquet":
         from .parquet_file import ParquetWriter
         return ParquetWriter(path, columns, facts, messages)
     from .mcap_file import McapWriter
@@ -156,10 +160,9 @@ def read(path: Union[str, os.PathLike]) -> Recording:
     existing(path)
     suffix = Path(path).suffix
     try:
-        if suffix == ".csv":
+        if _suffix(path) == ".csv":
             from .csv_file import read_csv
             return read_csv(path)
-        _suffix(path)
         if suffix == ".parquet":
             from .parquet_file import read_parquet
             return read_parquet(path)
@@ -184,5 +187,5 @@ def existing(path: Union[str, os.PathLike]) -> str:
 def _suffix(path: Union[str, os.PathLike]) -> str:
     suffix = Path(path).suffix
     if suffix not in SUFFIXES:
-        raise ArgumentError(f"a recording named '{os.fspath(path)}'", "end the name in .parquet or .mcap", "unknown-format")
+        raise ArgumentError(f"a recording named '{os.fspath(path)}'", "end the name in .parquet, .mcap or .csv", "unknown-format")
     return suffix

@@ -1,4 +1,8 @@
-"""Test drives of a vehicle with wheels left and right: circle, stop, weave, and the squares of UMBmark."""
+"""Test drives of a vehicle with wheels left and right: circle, stop, weave, and the squares of UMBmark.
+
+A vehicle whose on-board controller takes velocities (`cmd_vel`) is driven by them: the controller would overwrite setpoints
+of its wheels. Any other one is driven by the motors of its wheels.
+"""
 from __future__ import annotations
 
 import os
@@ -9,7 +13,7 @@ import numpy as np
 
 from ..errors import ArgumentError
 from ..names import index_of, unknown
-from ..robots import Floats
+from ..robots import Floats, Robots
 from ..simulation import Simulation
 from . import vehicle
 from .recorder import opened_world
@@ -71,6 +75,7 @@ class VehicleDriver:
         joints = list(self.vehicle.joints)
         self._columns = [[index_of("joint", name, joints, f" of '{self.robot}'") for name in side] for side in (self.left, self.right)]
         self._period = max(1, round(_CONTROL / self.sim.dt))  # ticks between two orders
+        self.command: Optional[str] = _velocity_command(self.vehicle)
         self._start = self.sim.save()
         self.wheel_radius: float = self._rolled()
         self.contact_track: float = self._width()
@@ -158,6 +163,9 @@ class VehicleDriver:
         self.sim.step(round(0.3 / self.sim.dt))
 
     def _order(self, speed: float, rate: float) -> None:
+        if self.command is not None:
+            self.vehicle.command(self.command, linear_x=speed, angular_z=rate)
+            return
         for side, names in ((-1, self.left), (1, self.right)):
             self.vehicle.set_joint_targets((speed + side * rate * self.track / 2) / self.wheel_radius, names)
 
@@ -186,8 +194,7 @@ class VehicleDriver:
         """Effective radius of the wheels, m: distance over angle in a second of straight driving."""
         self.wheel_radius, self.track = 1.0, 0.0
         self._reset(0.0)
-        for names in (self.left, self.right):
-            self.vehicle.set_joint_targets(2.0, names)
+        self._order(self.test.speed if self.command else 2.0, 0.0)
         self.sim.step(round(0.5 / self.sim.dt))
         place, wheels = self.vehicle.pose[0, :2].copy(), self._wheels()
         self.sim.step(round(1 / self.sim.dt))
@@ -218,6 +225,14 @@ class VehicleDriver:
         if not (aside > 0).any() or not (aside < 0).any():
             raise ArgumentError(f"'{self.robot}' does not stand on wheels left and right", "put it on the ground", "no-ground")
         return float(aside[aside > 0].mean() - aside[aside < 0].mean())
+
+
+def _velocity_command(vehicle: Robots) -> Optional[str]:
+    """The command that takes a speed and a yaw rate."""
+    for name, values in vehicle.commands.items():
+        if {"linear_x", "angular_z"} <= {field for field, _ in values}:
+            return name
+    return None
 
 
 def _first_vehicle(sim: Simulation) -> str:

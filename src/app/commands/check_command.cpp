@@ -13,8 +13,10 @@
 #include <vector>
 
 #include "app/commands/exit_codes.h"
+#include "app/output/findings.h"
 #include "app/worlds/plugin_census.h"
 #include "app/worlds/world_census.h"
+#include "app/worlds/world_names.h"
 #include "model/model.h"
 #include "sdf/load_world.h"
 
@@ -31,11 +33,12 @@ constexpr const char* kHelp =
     "them, or refuses the world if no other model is left; also a file that cannot be read; 2 wrong usage.\n"
     "Of several files the worst counts.\n"
     "Examples: roboss check worlds/city.sdf --path ~/models\n"
+    "          roboss check robot.urdf --names\n"
     "          roboss check worlds/*.sdf --json";
 
 struct CheckOptions {
     std::vector<std::string> worlds, paths;
-    bool json = false, all = false;
+    bool json = false, all = false, names = false;
 };
 
 std::string counts(const std::map<std::string, std::size_t>& by_kind) {
@@ -47,8 +50,8 @@ std::string counts(const std::map<std::string, std::size_t>& by_kind) {
 
 void print_text(const World& world, const WorldCensus& census) {
     fmt::print("world          {} ({})\n", world.name, world.file);
-    fmt::print("robots         {} of {} distinct types, {} links\n", census.robots, census.robot_types,
-               census.links);
+    fmt::print("robots         {} of {} type{}, {} links\n", census.robots, census.robot_types,
+               census.robot_types == 1 ? "" : "s", census.links);
     fmt::print("static models  {}\n", census.static_models);
     fmt::print("joints         {}\n", counts(census.joints));
     fmt::print("shapes         {}\n", counts(census.shapes));
@@ -118,28 +121,24 @@ void print_text(const std::vector<PluginReport>& plugins, const std::string& wor
             "do their work.\n");
 }
 
-constexpr std::size_t kShownOfACode = 3;
-
 /// "1 error", "2 warnings"
 std::string counted(const Diagnostics& diagnostics, Severity severity) {
     const std::size_t count = diagnostics.count(severity);
     return fmt::format("{} {}{}", count, to_text(severity), count == 1 ? "" : "s");
 }
 
-/// Errors first. Of a kind of finding the first three, and none of what the list of plugins says; `all`:
-/// every one.
+/// Errors first, one line for findings that are alike, and none for what the list of plugins says; `all`:
+/// every finding.
 void print_text(const Diagnostics& diagnostics, bool all) {
     for (const Severity severity : {Severity::kError, Severity::kWarning, Severity::kNote}) {
-        std::map<std::string, std::size_t> met;
-        for (const Diagnostic& d : diagnostics.items()) {
-            if (d.severity != severity || (d.code == "plugin" && severity == Severity::kNote && !all))
-                continue;
-            if (++met[d.code] <= kShownOfACode || all) fmt::print("{}\n", to_text(d));
+        if (all) {
+            for (const Diagnostic& d : diagnostics.items())
+                if (d.severity == severity) fmt::print("{}\n", to_text(d));
+            continue;
         }
-        for (const auto& [code, times] : met)
-            if (times > kShownOfACode && !all)
-                fmt::print("... and {} more {}s of this kind [{}]; --all prints them\n",
-                           times - kShownOfACode, to_text(severity), code);
+        for (const FindingGroup& group : group_findings(diagnostics, severity))
+            if (group.first->code != "plugin" || severity != Severity::kNote)
+                fmt::print("{}\n", to_text(group));
     }
     fmt::print("{}, {}, {}\n", counted(diagnostics, Severity::kError),
                counted(diagnostics, Severity::kWarning), counted(diagnostics, Severity::kNote));
@@ -223,12 +222,14 @@ int check(const std::string& file, const CheckOptions& options, nlohmann::json& 
         report["runs"] = runs;
         report["commands"] = to_json(commands);
         report["plugins"] = to_json(plugins);
+        if (options.names && runs) report["names"] = to_json(list_names(*model));
         report["errors"] = diagnostics.count(Severity::kError);
         report["warnings"] = diagnostics.count(Severity::kWarning);
         report["diagnostics"] = to_json(diagnostics);
         reports.push_back(std::move(report));
     } else {
         if (world) print_text(*world, take_census(*world, model.get()));
+        if (options.names && runs) fmt::print("{}", to_text(list_names(*model)));
         print_text(commands);
         if (world) print_text(plugins, world->file);
         print_text(diagnostics, options.all);
@@ -270,7 +271,11 @@ void add_check_command(CLI::App& app, int& exit_code) {
                      "folder in which model://, package:// and relative URIs are looked up (may be repeated)")
         ->type_name("DIR")
         ->take_all();
-    command->add_flag("--all", options->all, "print every finding (default: three of each kind)");
+    command->add_flag("--all", options->all, "print every finding (default: one of those that are alike)");
+    command->add_flag(
+        "--names", options->names,
+        "also print the names of all robots, links, joints, sensors and commands, as orders and "
+        "programs spell them");
     command->add_flag("--json", options->json,
                       "print JSON instead of text: an object, or a list for several files");
     command->callback([options, &exit_code] { exit_code = check_all(*options); });

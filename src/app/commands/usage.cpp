@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "app/commands/exit_codes.h"
+#include "app/commands/help_text.h"
 #include "core/result.h"
 #include "core/similar.h"
 
@@ -32,12 +33,6 @@ std::vector<std::string> subcommand_names(const CLI::App& app) {
     for (const CLI::App* sub : app.get_subcommands([](const CLI::App*) { return true; }))
         names.push_back(sub->get_name());
     return names;
-}
-
-/// "roboss control" for its help.
-std::string full_name(const CLI::App& app) {
-    const CLI::App* parent = app.get_parent();
-    return parent == nullptr ? "roboss" : full_name(*parent) + " " + app.get_name();
 }
 
 /// What no option or subcommand takes.

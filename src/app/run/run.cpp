@@ -10,6 +10,7 @@
 #include <random>
 
 #include "app/commands/exit_codes.h"
+#include "app/output/findings.h"
 #include "app/processes/crash_report.h"
 #include "app/processes/interrupt.h"
 #include "app/processes/threads.h"
@@ -27,12 +28,31 @@
 namespace roboss {
 namespace {
 
-/// Prints warnings and errors in full, notes as a count: `roboss check` prints them all.
+/// Prints errors and warnings, those that are alike as one. Returns how many findings are not printed.
+std::size_t print_groups(const Diagnostics& findings) {
+    std::size_t unprinted = findings.count(Severity::kNote);
+    for (const Severity severity : {Severity::kError, Severity::kWarning})
+        for (const FindingGroup& group : group_findings(findings, severity)) {
+            fmt::print(stderr, "{}\n", to_text(group));
+            unprinted += group.more;
+        }
+    return unprinted;
+}
+
 void print(const Diagnostics& diagnostics, const std::string& world) {
-    for (const Diagnostic& d : diagnostics.items())
-        if (d.severity != Severity::kNote) fmt::print(stderr, "{}\n", to_text(d));
-    if (const std::size_t notes = diagnostics.count(Severity::kNote); notes > 0)
-        fmt::print(stderr, "{} notes about this world; `roboss check {}` prints them\n", notes, world);
+    if (const std::size_t unprinted = print_groups(diagnostics); unprinted > 0)
+        fmt::print(stderr,
+                   "{} more findings or notes about this world; `roboss check {} --all` prints them\n",
+                   unprinted, world);
+}
+
+/// Prints what is wrong with the orders of a file. Returns false if anything is.
+bool are_orders_right(const Diagnostics& findings, const std::string& file) {
+    print_groups(findings);
+    if (findings.has_errors())
+        fmt::print(stderr, "roboss: the orders file {} is refused for the errors above; nothing was run\n",
+                   file);
+    return !findings.has_errors();
 }
 
 bool has_cameras(const Model& model) {
@@ -86,13 +106,15 @@ bool Run::prepare() {
             return print(completed.error()), false;
     if (world && !refused()) model_ = compile(*world, compile_options(), diagnostics);
     if (world) world_speed_ = world->real_time_factor;
-    if (model_ && !o_.orders.empty()) orders_ = load_orders(o_.orders, *model_, diagnostics);
+    Diagnostics order_findings;
+    if (model_ && !o_.orders.empty()) orders_ = load_orders(o_.orders, *model_, order_findings);
     print(diagnostics, o_.world);
     if (!model_ || refused()) {
         fmt::print(stderr, "roboss: {} is refused for the errors above{}\n", o_.world,
                    o_.strict ? ", as --strict asks" : "; they concern the whole world or all its models");
         return false;
     }
+    if (!are_orders_right(order_findings, o_.orders)) return false;
     if (Result<> found = check_snapshot(o_.snapshot, *model_); !found) return print(found.error()), false;
     if (Result<> found = check_sense(o_.sense, *model_); !found) return print(found.error()), false;
     world_model_ = model_;

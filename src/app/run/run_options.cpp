@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "app/commands/help_text.h"
 #include "app/commands/numbers.h"
 #include "app/processes/network_options.h"
 #include "app/run/journal_limit.h"
@@ -127,6 +128,7 @@ void add_pace_options(CLI::App& command, RunOptions& o) {
     command.add_option("--window", o.window, "synchronization interval in ticks, or auto")
         ->check(number_or({"auto"}, 1, 1e6))
         ->capture_default_str();
+    name_new_options(command, "Time, speed and threads");
 }
 
 /// Output files, log and viewer.
@@ -172,6 +174,7 @@ void add_watch_options(CLI::App& command, RunOptions& o, ViewerDefault viewer) {
                     "(default: the current one)")
         ->check(CLI::ExistingDirectory);
     command.add_flag("--quiet", o.quiet, "print no progress, only the summary");
+    name_new_options(command, "Output");
 }
 
 /// Saved states and the journal.
@@ -209,6 +212,7 @@ void add_kept_options(CLI::App& command, RunOptions& o) {
                                                  : "give a time (10min), a size (500MB) or all";
             },
             "AGE|SIZE"));
+    name_new_options(command, "Saved states and the journal");
 }
 
 void add_common_options(CLI::App& command, RunOptions& o) {
@@ -250,6 +254,7 @@ void add_common_options(CLI::App& command, RunOptions& o) {
     command.add_option(
         "--seed", o.seed,
         "seed of sensor noise and control programs (default: the seed in --from or the journal, else 0)");
+    name_new_options(command, "World and robots");
     add_kept_options(command, o);
     add_pace_options(command, o);
     add_watch_options(command, o, ViewerDefault::kOn);
@@ -281,6 +286,9 @@ void add_run_options(CLI::App& command, RunOptions& o) {
             "its output is printed")
         ->check(whole_number(1, 100))
         ->excludes(simulators);
+    name_new_options(command, "Simulators of this run");
+    limit_help_to(command, {"duration", "speed", "ground", "path", "client", "orders", "view", "headless",
+                            "trace", "journal"});
 }
 
 void add_replay_options(CLI::App& command, RunOptions& o) {
@@ -294,6 +302,8 @@ void add_replay_options(CLI::App& command, RunOptions& o) {
                     "number of Simulators among which the robots are divided, all in this process")
         ->check(whole_number(1, 1024))
         ->capture_default_str();
+    name_new_options(command, "Simulators of this run");
+    limit_help_to(command, {"duration", "speed", "view", "trace", "contacts", "json"});
 }
 
 void add_controller_options(CLI::App& command, RunOptions& o) {
@@ -316,7 +326,10 @@ void add_controller_options(CLI::App& command, RunOptions& o) {
     command.add_option(
         "--await-client", o.clients_awaited,
         "the run also waits for this Client before it starts (`roboss client --name`; may be repeated)");
+    name_new_options(command, "Members of this run");
     add_network_options(command, o.network);
+    limit_help_to(command, {"simulators", "local", "await-client", "interface", "simulation", "peer",
+                            "duration", "speed", "client", "orders", "view", "headless", "journal"});
 }
 
 }  // namespace roboss

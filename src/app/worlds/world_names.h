@@ -1,0 +1,37 @@
+// The names in a world that orders, control programs and options use: robots, links, joints, sensors,
+// commands.
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <vector>
+
+#include "model/model.h"
+
+namespace roboss {
+
+/// A joint, a sensor, or another thing that has a kind.
+struct NamedThing {
+    std::string name;  // as orders spell it
+    std::string kind;  // "revolute", "gpu_lidar"
+};
+
+/// The names of one robot type, and the robots that have it.
+struct TypeNames {
+    std::string type;
+    std::vector<std::string> robots, links;
+    std::vector<NamedThing> joints, sensors;
+    std::vector<std::string> commands;
+};
+
+/// All types that robots have, in the order of their first robots. The board of the world's messages is left
+/// out.
+std::vector<TypeNames> list_names(const Model& model);
+
+/// "car_0 ... car_49 (50)": consecutive numbers of a name are shortened where there are more than four.
+std::string shortened(const std::vector<std::string>& names);
+
+std::string to_text(const std::vector<TypeNames>& types);
+nlohmann::json to_json(const std::vector<TypeNames>& types);
+
+}  // namespace roboss
