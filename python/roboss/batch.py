@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _core
-from .errors import ArgumentError
+from .names import whole
 from .robots import Robots
 from .simulation import Simulation, threads_or_all
 from .world import World, load
@@ -38,10 +38,9 @@ class Batch:
 
     def __init__(self, world: Union[World, str, os.PathLike], count: int, *, threads: Optional[int] = None,
                  seed: int = 0):
-        if count < 1:
-            raise ArgumentError(f"a batch of {count} simulations", "give 1 or more")
+        count = whole("count", count, 1)
         self.world: World = world if isinstance(world, World) else load(world)  #: that they simulate
-        self._core = _core.batch(self.world._model, count, threads_or_all(threads), seed)
+        self._core = _core.batch(self.world._model, count, threads_or_all(threads), whole("seed", seed))
         self._simulations = self._core.simulations
         for simulation in self._simulations:
             simulation.see(self.world._looks, 1)
@@ -53,7 +52,7 @@ class Batch:
         Returns (B,): True where a simulation stopped, because a state would become infinite. It stays intact at the
         beginning of that tick; its own `step` says why, `reset` starts it again.
         """
-        return np.array(self._core.step(ticks), dtype=bool)
+        return np.array(self._core.step(whole("ticks", ticks)), dtype=bool)
 
     def robots(self, wanted: Union[str, Iterable[str]] = "*") -> Robots:
         """Robots of all simulations as arrays (B, N, ...); see Simulation.robots.

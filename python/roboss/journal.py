@@ -6,6 +6,7 @@ from typing import Iterable, Iterator, Optional, Union
 
 from . import _core
 from .errors import JournalError
+from .names import real
 from .simulation import Simulation, threads_or_all
 from .world import World
 
@@ -62,7 +63,7 @@ class Journal:
             JournalError: the branch does not have this time (code "no-such-time").
         """
         found, world = self._branch(branch), self.world(branch)
-        tick = round(time / world.dt)
+        tick = round(real("time", time) / world.dt)
         if not found.first_tick <= tick <= found.last_tick:
             first, last = self.times(branch)
             raise JournalError(f"branch {found.id} of '{self.path}' has no time {time:g} s",

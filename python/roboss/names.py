@@ -1,8 +1,10 @@
-"""Names that do not exist, and rows that do not fit."""
+"""Checks of arguments: names that do not exist, rows that do not fit, values of another type or range."""
 from __future__ import annotations
 
 import difflib
-from typing import Iterable
+import math
+import operator
+from typing import Any, Iterable
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -35,6 +37,38 @@ def numbers(what: str, values: ArrayLike) -> NDArray[np.float64]:
         return np.asarray(values, dtype=np.float64)
     except (TypeError, ValueError) as error:
         raise ArgumentError(f"{what}: no array of numbers ({error})", code="bad-shape") from None
+
+
+def whole(what: str, value: Any, least: int = 0, most: int = 2**63 - 1) -> int:
+    """The value as an int of Python; numpy's integers will do. Raises ArgumentError for another type or range."""
+    try:
+        if isinstance(value, bool):
+            raise TypeError
+        number = operator.index(value)
+    except TypeError:
+        raise ArgumentError(f"{what}: {value!r} is no whole number", "give an int", "bad-type") from None
+    if not least <= number <= most:
+        limits = f"{least} or more" if most == 2**63 - 1 else f"{least} to {most}"
+        raise ArgumentError(f"{what}: {number}", f"give {limits}", "bad-value")
+    return number
+
+
+def real(what: str, value: Any, least: float = -math.inf) -> float:
+    """The value as a float. Raises ArgumentError for another type, for NaN, and below `least`."""
+    try:
+        number = float(value)
+    except (TypeError, ValueError):
+        raise ArgumentError(f"{what}: {value!r} is no number", "give a float", "bad-type") from None
+    if not number >= least:
+        raise ArgumentError(f"{what}: {number}", f"give {least:g} or more" if least > -math.inf else "give a number", "bad-value")
+    return number
+
+
+def instance(what: str, value: Any, kind: type, remedy: str) -> Any:
+    """The value. Raises ArgumentError if it is not of this type."""
+    if not isinstance(value, kind):
+        raise ArgumentError(f"{what}: a value of type '{type(value).__name__}'", remedy, "bad-type")
+    return value
 
 
 def filled(what: str, values: ArrayLike, shape: tuple[int, ...]) -> NDArray[np.float64]:

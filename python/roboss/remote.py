@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike
 
 from . import _core
 from .errors import ArgumentError, StateError
-from .names import filled
+from .names import filled, real, whole
 from .robots import Robots
 from .run import Run
 from .world import World
@@ -43,10 +43,9 @@ def connect(simulation: str = "default", *, name: str = "python", period: int = 
         ClusterError: no Controller is found, or it refuses this Client.
         ArgumentError: a period or latency that cannot be.
     """
-    if period < 1 or latency < 0:
-        raise ArgumentError(f"a period of {period} ticks and a latency of {latency}",
-                            "give a period of 1 or more, and a latency of 0 or more", "bad-ticks")
-    core = _core.connect(simulation, name, period, latency, patience, interface, domain, list(peers), discovery_server)
+    period, latency = whole("period", period, 1), whole("latency", latency)
+    core = _core.connect(simulation, name, period, latency, real("patience", patience, 0), interface,
+                         whole("domain", domain, 0, 232), list(peers), discovery_server)
     return RemoteSimulation(core, f"<simulation '{simulation}'>")
 
 
@@ -79,7 +78,7 @@ class RemoteSimulation(Run):
             ClusterError: the run is over (code "run-over"), or the Controller is gone ("no-controller").
             StateError: robots came or went ("changed-world"): connect again.
         """
-        self._core.step(ticks or self.period)
+        self._core.step(whole("ticks", ticks) or self.period)
         for line in self._core.take_refusals():
             _log.warning(line)
 

@@ -10,7 +10,7 @@ from . import _core
 from .camera import RobotCameras
 from .errors import ArgumentError, StateError
 from .mujoco_order import MujocoOrder
-from .names import filled, index_of, numbers, unknown
+from .names import filled, index_of, numbers, real, unknown, whole
 from .radio import Radio
 from .sensors import Sensor
 
@@ -273,10 +273,8 @@ class Robots:
         columns = [index_of("joint", name, facts.axes, f" of '{facts.name}'") for name in names]
         if mode not in _MODES:
             raise unknown("motor mode", mode, _MODES)
-        if max_effort is not None and not max_effort >= 0:
-            raise ArgumentError(f"a max_effort of {max_effort}", "give 0 or more, or None for the joint's own")
         self._core.set_joints(columns, _MODES.index(mode), self._fill("targets", targets, len(columns)),
-                              -1.0 if max_effort is None else max_effort)
+                              -1.0 if max_effort is None else real("max_effort", max_effort, 0))
 
     def apply_wrench(self, wrench: ArrayLike, link: Optional[str] = None, *, ticks: int = 1) -> None:
         """Pushes a link of each robot for `ticks` ticks from the next one on; wrenches add up.
@@ -291,7 +289,7 @@ class Robots:
         >>> bool(sim.robots("car_2").twist[0, 2] > 1)
         True
         """
-        self._core.apply_wrenches(0 if link is None else self._link(link), self._fill("wrench", wrench, 6), ticks)
+        self._core.apply_wrenches(0 if link is None else self._link(link), self._fill("wrench", wrench, 6), whole("ticks", ticks))
 
     def command(self, name: str, values: Optional[ArrayLike] = None, **named: ArrayLike) -> None:
         """Gives a command to on-board controllers, from the next tick on; it holds until the next one.

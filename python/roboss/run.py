@@ -8,7 +8,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from . import _core
 from .camera import Camera
-from .names import index_of
+from .names import index_of, real
 from .robots import Robots
 from .world import World
 
@@ -117,7 +117,8 @@ class Run:
             number = self._number_of(robot)
             links = self.world._facts_of(number).links
             numbers += [number, 0 if name is None else index_of("link", name, links, f" of robot '{robot}'")]
-        self._simulations[0].attach(*numbers, reach, max_force, max_torque)
+        self._simulations[0].attach(*numbers, real("reach", reach, 0), real("max_force", max_force, 0),
+                                    real("max_torque", max_torque, 0))
 
     def detach(self, holder: str, held: str) -> None:
         """Lets go what `attach` made."""

@@ -8,7 +8,7 @@ from numpy.typing import ArrayLike
 
 from . import _core
 from .errors import ArgumentError, StateError
-from .names import filled
+from .names import filled, instance, whole
 from .robots import Robots
 from .run import Run
 from .view import View
@@ -25,7 +25,7 @@ def threads_or_all(threads: Optional[int]) -> int:
     """
     if threads is None:
         return min(len(os.sched_getaffinity(0)), _THREADS_MOST)
-    if not 1 <= threads <= _THREADS_MOST:
+    if not 1 <= whole("threads", threads, -2**63) <= _THREADS_MOST:
         raise ArgumentError(f"{threads} threads", f"give 1 to {_THREADS_MOST}, or None for one a core", "bad-threads")
     return threads
 
@@ -51,7 +51,7 @@ class Simulation(Run):
 
     def __init__(self, world: Union[World, str, os.PathLike], *, threads: Optional[int] = None, seed: int = 0):
         self.world: World = world if isinstance(world, World) else load(world)  #: that it simulates
-        self._take(_core.Simulation(self.world._model, threads_or_all(threads), seed))
+        self._take(_core.Simulation(self.world._model, threads_or_all(threads), whole("seed", seed)))
 
     @classmethod
     def _of(cls, world: World, core: _core.Simulation) -> Simulation:
@@ -72,7 +72,7 @@ class Simulation(Run):
             StateError: a state would become infinite (code "not-finite"). The text names robot and joint; the world
                 stays intact at the beginning of that tick.
         """
-        self._core.step(ticks)
+        self._core.step(whole("ticks", ticks))
 
     @property
     def tick(self) -> int:
@@ -99,11 +99,11 @@ class Simulation(Run):
         >>> sim.state_hash == first
         True
         """
-        self._core.restore(save)
+        self._core.restore(instance("save", save, _core.Save, "give what `save` returned"))
 
     def reset(self, seed: Optional[int] = None) -> None:
         """Back to the start of the world, without orders; with this seed of noise, None: the same one."""
-        self._core.reset(seed)
+        self._core.reset(None if seed is None else whole("seed", seed))
 
     def spawn(self, source: Union[World, str, os.PathLike], name: Union[None, str, Sequence[str]] = None,
               pose: ArrayLike = (0, 0, 0, 0, 0, 0, 1)) -> Robots:

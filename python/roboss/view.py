@@ -12,8 +12,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Optional
 
 from . import _core
-from .errors import ArgumentError
-from .names import unknown
+from .names import unknown, whole
 
 if TYPE_CHECKING:
     from .simulation import Simulation
@@ -44,8 +43,7 @@ class View:
     def __init__(self, simulation: Simulation, port: Optional[int], address: str, role: str, height: int):
         if role not in _ROLES:
             raise unknown("role", role, _ROLES)
-        if port is not None and not 0 < port < 65536:
-            raise ArgumentError(f"a port of {port}", "give 1 to 65535, or None")
+        port = None if port is None else whole("port", port, 1, 65535)
         host = f"[{address}]" if ":" in address else address
         core = _core.open_view(f"{host}:{port or 8090}", str(_PAGE), role, "roboss in Python")
         self.url: str = core.url  #: address of the page, with the token where one is needed

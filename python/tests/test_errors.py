@@ -60,8 +60,10 @@ def test_arrays_that_do_not_fit(crossroads):
     refused(error, "bad-shape", "(16, 3)", "(16, 4)")
     with pytest.raises(roboss.ArgumentError):
         crossroads.step(-1)
-    with pytest.raises(TypeError):
-        crossroads.step(1.5)
+    for wrong in (1.5, "10", None, True, 2**70):
+        with pytest.raises(roboss.ArgumentError) as error:
+            crossroads.step(wrong)
+        refused(error, "bad-value" if wrong == 2**70 else "bad-type", "ticks")
 
 
 def test_what_a_robot_refuses_changes_nothing(crossroads):
@@ -102,6 +104,21 @@ def test_a_state_that_is_not_finite_stops_at_its_tick():
     sim.reset()
     sim.step(10)
     assert sim.tick == 10
+
+
+def test_arguments_of_the_wrong_type_raise_errors_of_the_package(crossroads):
+    """None of them shows the text of the binding ("incompatible function arguments")."""
+    cars = crossroads.robots("car_*")
+    calls = [lambda: roboss.Simulation(crossroads.world, threads="2"), lambda: roboss.Simulation(crossroads.world, seed=0.5),
+             lambda: crossroads.restore("save"), lambda: crossroads.reset("a"), lambda: roboss.Batch(crossroads.world, "3"),
+             lambda: roboss.Batch(crossroads.world, 1).step([1]), lambda: cars.apply_wrench([0] * 6, ticks=2.5),
+             lambda: cars.set_joint_targets(1.0, max_effort="much"), lambda: crossroads.attach("car_0", "car_1", reach="far"),
+             lambda: crossroads.view(port="8090"), lambda: roboss.connect(period=1.5), lambda: roboss.connect(patience=None)]
+    for number, call in enumerate(calls):
+        with pytest.raises(roboss.ArgumentError) as error:
+            call()
+        assert error.value.code == "bad-type" and error.value.remedy, number
+    assert crossroads.step(np.int64(2)) is None and crossroads.tick == 2
 
 
 def test_robots_of_several_types():
