@@ -1,5 +1,7 @@
 """Examples in docstrings, and the Python in README.md and in pages of docs, run as they stand."""
 import doctest
+import inspect
+import pydoc
 import re
 
 import gymnasium
@@ -34,7 +36,7 @@ def test_everything_public_has_a_docstring(module):
             members = [getattr(thing, member) for base in own for member in vars(base) if not member.startswith("_")]
             described = [member for member in members if callable(member) or isinstance(member, property)]
             if thing.__module__ != "roboss._core":
-                assert all(member.__doc__ for member in [thing, *described]), name
+                assert all(inspect.getdoc(member) for member in [thing, *described]), name
 
 
 @pytest.mark.parametrize("page", ["README.md", "docs/python.md", "docs/learning.md", "docs/older-systems.md"])
@@ -46,3 +48,9 @@ def test_blocks_of_pages_run(page, monkeypatch, tmp_path):
     names = {}
     for block in blocks:
         exec(block, names)
+
+
+def test_help_describes_what_a_task_of_ones_own_defines():
+    text = pydoc.render_doc(envs.Task, renderer=pydoc.plaintext)
+    for method in ("observe", "act", "outcome", "place", "remove", "rows_of", "by_world"):
+        assert f" {method}(self" in text, method

@@ -77,11 +77,11 @@ class CityTask(Task):
             ranges, cos * twist[:, 0] + sin * twist[:, 1], twist[:, 5], goal_angle, np.hypot(*away.T), self._actions,
             self.present))
 
-    def _act(self, actions: NDArray[np.float64]) -> None:
+    def act(self, actions: NDArray[np.float64]) -> None:
         self._actions = np.clip(actions, -1, 1) * self.present[:, None]
         drive(self.robots, self._actions)
 
-    def _outcome(self, rng: np.random.Generator) -> tuple[NDArray[np.float64], Mask, dict[str, NDArray]]:
+    def outcome(self, rng: np.random.Generator) -> tuple[NDArray[np.float64], Mask, dict[str, NDArray]]:
         pose = self.robots.pose.reshape(-1, 7)
         distance = np.hypot(*self._away(pose).T)
         progress = np.where(self.present, self._distance - distance, 0.0)
@@ -99,11 +99,11 @@ class CityTask(Task):
         ways = [crossing for crossing in self.map.neighbours[here] if crossing != behind] or [behind]
         self._ends[car] = here, ways[rng.integers(len(ways))]
 
-    def _place(self, agents: Mask, rng: np.random.Generator) -> None:
+    def place(self, agents: Mask, rng: np.random.Generator) -> None:
         chosen = self._choose_places(agents, rng)
         self._ends[agents] = self.map.ends[chosen]
         self._actions[agents] = 0
-        self._put(agents, poses_of(self.map.places[chosen]))
+        self.put(agents, poses_of(self.map.places[chosen]))
         self._distance = np.hypot(*self._away(self.robots.pose.reshape(-1, 7)).T)
 
     def _choose_places(self, agents: Mask, rng: np.random.Generator) -> list[int]:
@@ -123,8 +123,8 @@ class CityTask(Task):
                 chosen.append(place)
         return chosen
 
-    def _remove(self, agents: Mask) -> None:
-        self._put(agents, np.tile(self._outside, (self.worlds, 1))[agents])
+    def remove(self, agents: Mask) -> None:
+        self.put(agents, np.tile(self._outside, (self.worlds, 1))[agents])
 
     def _away(self, pose: NDArray[np.float64]) -> NDArray[np.float64]:
         """From each car to its goal, (count, 2), m."""

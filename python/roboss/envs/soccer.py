@@ -86,10 +86,10 @@ class SoccerTask(Task):
         of_world = place.reshape(self.worlds, 1, every, 2) - place.reshape(self.worlds, every, 1, 2)
         return np.take_along_axis(of_world, self._others_of[None, :, :, None], axis=2).reshape(self.count, every - 1, 2)
 
-    def _act(self, actions: NDArray[np.float64]) -> None:
+    def act(self, actions: NDArray[np.float64]) -> None:
         drive(self.robots, np.clip(actions, -1, 1) * self.present[:, None])
 
-    def _outcome(self, rng: np.random.Generator) -> tuple[NDArray[np.float64], Mask, dict[str, NDArray]]:
+    def outcome(self, rng: np.random.Generator) -> tuple[NDArray[np.float64], Mask, dict[str, NDArray]]:
         x = self._ball.pose.reshape(self.worlds, 7)[:, 0]
         scored = np.where(np.abs(x) > HALF_LENGTH_M + BALL_RADIUS_M, np.sign(x), 0.0)
         moved, self._ball_x = x - self._ball_x, x.copy()
@@ -97,7 +97,7 @@ class SoccerTask(Task):
         mine = self._side * self.present
         return mine * for_red[:, 0], self.present & (for_red[:, 1] != 0), {"goals": (mine * for_red[:, 1]).astype(int)}
 
-    def _place(self, agents: Mask, rng: np.random.Generator) -> None:
+    def place(self, agents: Mask, rng: np.random.Generator) -> None:
         positions = self.robots.pose.reshape(self.worlds, -1, 7)[:, :, :2]
         playing, places = (self.present & ~agents).reshape(self.worlds, -1), []
         for world, mask in enumerate(agents.reshape(self.worlds, -1)):
@@ -107,7 +107,7 @@ class SoccerTask(Task):
             for car in np.flatnonzero(mask):
                 places.append(_free_place(self._side[car], taken, rng))
                 taken.append(places[-1][:2])
-        self._put(agents, poses_of(np.array(places)))
+        self.put(agents, poses_of(np.array(places)))
 
     def _kick_off(self, world: int, rng: np.random.Generator) -> None:
         ball = self._balls[world]
@@ -115,8 +115,8 @@ class SoccerTask(Task):
         ball.twist = 0
         self._ball_x[world] = 0
 
-    def _remove(self, agents: Mask) -> None:
-        self._put(agents, np.tile(self._outside, (self.worlds, 1))[agents])
+    def remove(self, agents: Mask) -> None:
+        self.put(agents, np.tile(self._outside, (self.worlds, 1))[agents])
 
 
 def _others_of_each(cars: int) -> NDArray[np.int64]:

@@ -45,6 +45,9 @@ class Task(ABC):
     The rows of world w are w * len(names) to (w + 1) * len(names) - 1. An agent is in the world from `start` to `leave`;
     the others are out of reach of all its sensors.
 
+    A task of your own defines observe(), act(), outcome(), place() and remove(). The arrays of `robots` have an axis for the
+    worlds if there are several; rows_of() and by_world() go back and forth.
+
     Args:
         world: a World.
         names: of the robots that are agents.
@@ -97,12 +100,12 @@ class Task(ABC):
     def start(self, agents: Mask, rng: np.random.Generator) -> None:
         """Begins a new episode of these agents; all others go on."""
         self.age[agents] = 0
-        self._place(agents, rng)
+        self.place(agents, rng)
         self.present |= agents
 
     def leave(self, agents: Mask) -> None:
         """Takes these agents out of the world."""
-        self._remove(agents)
+        self.remove(agents)
         self.present &= ~agents
 
     def step(self, actions: NDArray, rng: np.random.Generator) -> Outcome:
@@ -111,39 +114,56 @@ class Task(ABC):
         Raises:
             StateError: as Simulation.step.
         """
-        self._act(np.asarray(actions, dtype=np.float64))
+        self.act(np.asarray(actions, dtype=np.float64))
         if self.worlds == 1:
             self.simulation.step(self.ticks)
         else:
             for number in np.flatnonzero(self.simulation.step(self.ticks)):
                 self.simulations[number].step()  # raises: it stopped
         self.age += self.present
-        rewards, terminated, infos = self._outcome(rng)
+        rewards, terminated, infos = self.outcome(rng)
         truncated = self.present & ~terminated & (self.age >= self.episode_steps)
         return Outcome(rewards, terminated, truncated, infos)
+
+    def rows_of(self, values: NDArray) -> NDArray:
+        """An array of `robots`, (N, ...) of one world or (worlds, N, ...) of several, with one row for each agent: (count, ...)."""
+        return values.reshape(self.count, *values.shape[1 if self.worlds == 1 else 2:])
+
+    def by_world(self, rows: NDArray) -> NDArray:
+        """An array with one row for each agent, (count, ...), as `robots` takes it: (N, ...), or (worlds, N, ...) of several worlds."""
+        return rows if self.worlds == 1 else rows.reshape(self.worlds, len(self.names), *rows.shape[1:])
 
     @abstractmethod
     def observe(self) -> NDArray[np.float32]:
         """What each agent sees now, (count, ...)."""
 
     @abstractmethod
-    def _place(self, agents: Mask, rng: np.random.Generator) -> None:
-        """Puts these agents at new places, at rest."""
+    def place(self, agents: Mask, rng: np.random.Generator) -> None:
+        """Puts these agents at new places, at rest.
+
+        Args:
+            agents: (count,) bool.
+            rng: the only source of random numbers, so that a seed repeats an episode.
+        """
 
     @abstractmethod
-    def _remove(self, agents: Mask) -> None:
-        """Puts these agents out of reach of all sensors, at rest."""
+    def remove(self, agents: Mask) -> None:
+        """Puts these agents, (count,) bool, out of reach of all sensors, at rest."""
 
     @abstractmethod
-    def _act(self, actions: NDArray[np.float64]) -> None:
-        """Orders what the agents that are present want; the others stand."""
+    def act(self, actions: NDArray[np.float64]) -> None:
+        """Orders what the agents that are present want, (count, ...) in the units of `action_space`; the others stand.
+
+        It is called before the worlds are stepped, and not for single agents.
+        """
 
     @abstractmethod
-    def _outcome(self, rng: np.random.Generator) -> tuple[NDArray[np.float64], Mask, dict[str, NDArray]]:
-        """Rewards, who is terminated, and infos, of those that are present."""
+    def outcome(self, rng: np.random.Generator) -> tuple[NDArray[np.float64], Mask, dict[str, NDArray]]:
+        """Called after the worlds are stepped: rewards (count,), who is terminated (count,) bool, and more arrays (count, ...)
+        by name, which Gymnasium gets as infos. Rows of agents that are not present are zero."""
 
-    def _put(self, agents: Mask, poses: NDArray[np.float64]) -> None:
-        """Sets the poses of these agents' robots, (agents, 7), at rest."""
+    def put(self, agents: Mask, poses: NDArray[np.float64]) -> None:
+        """Sets the poses of these agents' robots, (agents, 7): x y z in m, quaternion x y z w; joints at zero, all at rest."""
         done = 0
         for robots, chosen in zip(self._robots_of, agents.reshape(self.worlds, -1)):
             rows = np.flatnonzero(chosen)

@@ -108,13 +108,13 @@ class WarehouseTask(Task):
                    self.in_service]
         return np.column_stack(columns).clip(-1, 1).astype(np.float32)
 
-    def _act(self, actions: NDArray[np.float64]) -> None:
+    def act(self, actions: NDArray[np.float64]) -> None:
         self._actions = np.clip(actions, -1, 1) * self.in_service[:, None]
         command = np.zeros((self.count, 6))
         command[:, 0], command[:, 5] = self._actions[:, 0] * TOP_SPEED_M_S, self._actions[:, 1] * TOP_TURN_RAD_S
         self.robots.command("cmd_vel", command.reshape(*self.robots.pose.shape[:-1], 6))
 
-    def _outcome(self, rng: np.random.Generator) -> tuple[NDArray[np.float64], Mask, dict[str, NDArray]]:
+    def outcome(self, rng: np.random.Generator) -> tuple[NDArray[np.float64], Mask, dict[str, NDArray]]:
         pose, twist = self.robots.pose.reshape(-1, 7), self.robots.twist.reshape(-1, 6)
         length, _ = self.hall.ways(pose[:, :2], self._place_of_goal)
         progress = np.where(self.in_service, self._length - length, 0.0)
@@ -186,12 +186,12 @@ class WarehouseTask(Task):
     def _measure_ways(self) -> None:
         self._length = self.hall.ways(self.robots.pose.reshape(-1, 7)[:, :2], self._place_of_goal)[0]
 
-    def _place(self, agents: Mask, rng: np.random.Generator) -> None:
+    def place(self, agents: Mask, rng: np.random.Generator) -> None:
         whole = agents.reshape(self.worlds, -1).all(axis=1)
         self.loaded[np.repeat(whole, len(self.names)) & ~self.present] = False  # a reset let go of them
         self._slot[agents] = -1
         places = self._choose_places(agents, rng)
-        self._put(agents, poses_of(places))
+        self.put(agents, poses_of(places))
         self._actions[agents], self._docked[agents] = 0, 0
         self.charge[agents] = rng.uniform(0.4, 1, np.count_nonzero(agents))
         for agent in np.flatnonzero(agents):
@@ -215,10 +215,10 @@ class WarehouseTask(Task):
                 taken.append(chosen[-1][:2])
         return np.array(chosen)
 
-    def _remove(self, agents: Mask) -> None:
+    def remove(self, agents: Mask) -> None:
         for agent in np.flatnonzero(agents):
             self._put_load_away(int(agent))
-        self._put(agents, np.tile(self._outside, (self.worlds, 1))[agents])
+        self.put(agents, np.tile(self._outside, (self.worlds, 1))[agents])
 
 
 def _far(pose: NDArray[np.float64], goals: NDArray[np.float64]) -> NDArray[np.float64]:
