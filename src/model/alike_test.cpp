@@ -3,9 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <functional>
+#include <type_traits>
 
 #include <support/robots.h>
 
+#include "model/compile_type.h"
 #include "model/model.h"
 
 namespace roboss::test {
@@ -133,6 +135,66 @@ TEST(RobotsAlike, DifferWhereAWordSaysHowAControllerWorks) {
     EXPECT_EQ(alike->like(kFirst), alike->like(kSecond));
     const auto other = pair_of(with_rotor("cw", "X1"), with_rotor("ccw", "X2"));
     EXPECT_NE(other->like(kFirst), other->like(kSecond));
+}
+
+/// Sets all texts of a controller that are no words for how it works.
+struct TextSetter {
+    std::string text;
+
+    template <class Value>
+    void operator()(const Parameter& parameter, Value& value) const {
+        if (parameter.choice) return;
+        if constexpr (std::is_same_v<Value, std::string>)
+            value = text;
+        else if constexpr (std::is_base_of_v<std::vector<std::string>, Value>)
+            value.assign(1, text);
+        else if constexpr (requires { requires ParameterRecord<typename Value::value_type>; })
+            for (auto& record : value) record.parameters(*this, record);
+    }
+};
+
+/// Changes its first number, or its first word for how it works.
+struct FirstChange {
+    bool done = false;
+
+    template <class Value>
+    void operator()(const Parameter& parameter, Value& value) {
+        if (done) return;
+        done = true;
+        if constexpr (std::is_same_v<Value, double> || std::is_same_v<Value, int>)
+            value += 1;
+        else if constexpr (std::is_same_v<Value, bool>)
+            value = !value;
+        else if constexpr (std::is_same_v<Value, Vec3>)
+            value.x += 1;
+        else if constexpr (std::is_same_v<Value, std::string>)
+            parameter.choice ? void(value += "?") : void(done = false);
+        else
+            done = false;
+    }
+};
+
+TEST(RobotsAlike, RunControllersThatDifferInNamesAndTopicsOnlyOfAllKinds) {
+    const auto hash_of = [](const OnboardParameters& parameters, bool of_step) {
+        OnboardInfo info;
+        info.spec = {"plugin", parameters, {}};
+        Hash hash;
+        of_step ? add_to_step_hash(hash, info) : add_to_hash(hash, info);
+        return hash.value();
+    };
+    for_each_onboard_kind([&]<class Kind>(std::in_place_type_t<Kind>) {
+        OnboardParameters first = Kind{}, second = Kind{}, other = Kind{};
+        visit_parameters(first, TextSetter{"a"}), visit_parameters(second, TextSetter{"b"});
+        EXPECT_EQ(hash_of(first, true), hash_of(second, true)) << Kind::kKind.name;
+        FirstChange change;
+        visit_parameters(other, change);
+        if (change.done) {
+            EXPECT_NE(hash_of(other, true), hash_of(Kind{}, true)) << Kind::kKind.name;
+        }
+        if (first != second) {
+            EXPECT_NE(hash_of(first, false), hash_of(second, false)) << Kind::kKind.name;
+        }
+    });
 }
 
 TEST(Commands, AreFoundByTheLastPartsOfTheirNames) {

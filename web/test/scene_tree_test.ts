@@ -71,7 +71,11 @@ test("a type that is called after a robot is headed by what the names of its own
 test("robots that move alike are one type, whatever their parts, topics and colours are called", () => {
     const swarm = scene(0),
         drone = swarm.types[0];
-    swarm.types = [1, 2, 3].map((k) => ({ ...drone, name: `X${k}`, joints: [{ ...drone.joints[0], name: `X${k}_hinge` }] }));
+    swarm.types = [1, 2, 3].map((k) => ({
+        ...drone,
+        name: `X${k}`,
+        joints: [{ ...drone.joints[0], name: `X${k}_hinge` }],
+    }));
     swarm.types.push({ ...drone, name: "X4", like: 7 }, { ...drone, name: "rover" });
     swarm.robots = [0, 1, 2, 3, 3, 4, 4].map((type, k) => ({ name: type < 4 ? `X${k + 1}` : `rover_${k}`, type }));
     const headings = treeRows(swarm, "", none, none).filter((row) => row.kind === "type");
