@@ -55,7 +55,7 @@ class Radio(Sensor):
         if any(name == "" for name in names):
             raise ArgumentError("an addressee with an empty name", "give None for everybody")
         as_bytes = [p.encode() if isinstance(p, str) else bytes(p) for p in payloads]
-        _core.transmit(self.robots._simulations, list(self.robots.ids), self._number, as_bytes, [n or "" for n in names])
+        _core.transmit(self.robots._simulations, list(self.robots.ids), self._numbers, as_bytes, [n or "" for n in names])
 
     def receive(self) -> list[list[Message]]:
         """For each robot the messages that arrived since the last call, or since the run began, by time of arrival.
@@ -63,5 +63,5 @@ class Radio(Sensor):
         Of a Batch: robots of the first simulation, then of the second ... A message is kept for a second after it was
         sent: ask as often. `reset` and `restore` forget what was not asked for.
         """
-        heard = _core.received(self.robots._simulations, list(self.robots.ids), self._number)
+        heard = _core.received(self.robots._simulations, list(self.robots.ids), self._numbers)
         return [[Message(sender, to or None, *rest) for sender, to, *rest in row] for row in heard]

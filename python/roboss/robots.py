@@ -1,14 +1,14 @@
 """Robots: some robots of a simulation as arrays, robots the first axis."""
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Iterable, Optional, Sequence, Union
+from typing import TYPE_CHECKING, Callable, Iterable, Optional, Sequence, Union
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _core
 from .camera import RobotCameras
-from .errors import ArgumentError, StateError
+from .errors import ArgumentError, StateError, UnknownNameError
 from .mujoco_order import MujocoOrder
 from .names import filled, index_of, numbers, real, unknown, whole
 from .radio import Radio
@@ -36,7 +36,12 @@ class Robots:
 
     What is assigned (`cars.pose = ...`) is in effect at once, and takes a full array, one row for all robots, or one
     number for everything; if one robot refuses it, nothing is changed (OrderError). `cars.pose[0] = ...` raises
-    ValueError: assign `cars[0].pose`. Joints, links, sensors and commands need robots of one type.
+    ValueError: assign `cars[0].pose`.
+
+    Joints, links, sensors and commands are those that all robots have. Robots of one type have all of them: if parts
+    or topics are called differently, the names of the first robot count, of commands what their names end in
+    ("cmd_vel" for "robot_1/cmd_vel" and "robot_2/cmd_vel"). Of robots of different types it is what all have under one
+    name: joints with the same unit, sensors of the same kind, commands with the same values.
 
     `robots["scan"]` is a Sensor, `robots[3]`, `robots[2:5]`, `robots[mask]` are some of the robots.
 
@@ -58,6 +63,7 @@ class Robots:
         self.ids: tuple[int, ...] = tuple(ids)  #: their places in World.robots
         self._world, self._simulations = simulation.world, simulation._simulations  # both stay when robots come or go
         self._core = _core.robots(self._simulations, list(ids))
+        self._in_common: Optional[TypeFacts] = None
 
     def __len__(self) -> int:
         return len(self.ids)
@@ -73,17 +79,29 @@ class Robots:
 
     @property
     def _facts(self) -> TypeFacts:
-        types = self._world._types
-        if len({types[number] for number in self.ids}) != 1:
-            kinds = sorted({self._world._facts_of(number).name for number in self.ids})
-            raise ArgumentError(f"these {len(self)} robots are of {len(kinds)} types ({', '.join(kinds[:8])})",
-                                "select robots of one type for joints, links, sensors and commands", "mixed-types")
-        return self._world._facts_of(self.ids[0])
+        if self._in_common is None:
+            if not self.ids:
+                raise ArgumentError("a set of no robots has no joints, links, sensors and commands", "select some", "no-robot")
+            self._in_common = self._world._facts_of_set(self.ids)
+        return self._in_common
+
+    @property
+    def _joint_facts(self) -> TypeFacts:
+        """The facts, of robots that have joints in common."""
+        facts = self._facts
+        if not facts.axes and len(facts.types) > 1:
+            raise self._mixed("have no joint in common", "select robots with joints of one name")
+        return facts
+
+    def _mixed(self, fault: str, remedy: str) -> ArgumentError:
+        facts = self._facts
+        return ArgumentError(f"these {len(self)} robots of {len(facts.types)} types ({facts.name}) {fault}", remedy,
+                             "mixed-types")
 
     @property
     def joints(self) -> tuple[str, ...]:
         """Columns of the arrays of joints: each axis of each joint that moves; "NAME:0", "NAME:1" of several axes."""
-        return tuple(self._facts.axes)
+        return tuple(self._joint_facts.axes)
 
     @property
     def links(self) -> tuple[str, ...]:
@@ -93,27 +111,34 @@ class Robots:
     @property
     def sensors(self) -> tuple[str, ...]:
         """Names of the sensors; `robots[name]` reads one."""
-        return tuple(name for name, _, _ in self._facts.sensors)
+        return tuple(sensor[0] for sensor in self._facts.sensors)
 
     @property
     def commands(self) -> dict[str, tuple[tuple[str, str], ...]]:
         """Commands of on-board controllers: (name, unit) of each value, by the command's name."""
-        return {name: values for name, values, _ in self._facts.commands}
+        return {command[0]: command[1] for command in self._facts.commands}
 
     @property
     def joint_limits(self) -> Floats:
         """Lowest and highest position of each joint, (joints, 2): rad or m; infinite where there is none."""
-        return np.array(self._facts.limits).reshape(-1, 4)[:, :2]
+        return self._limits[:, :2]
 
     @property
     def joint_effort_limits(self) -> Floats:
         """Largest effort of each joint's motor, (joints,): N m or N."""
-        return np.array(self._facts.limits).reshape(-1, 4)[:, 2]
+        return self._limits[:, 2]
 
     @property
     def joint_velocity_limits(self) -> Floats:
         """Largest velocity of each joint's motor, (joints,): rad/s or m/s."""
-        return np.array(self._facts.limits).reshape(-1, 4)[:, 3]
+        return self._limits[:, 3]
+
+    @property
+    def _limits(self) -> Floats:
+        limits = self._joint_facts.limits
+        if limits is None:
+            raise self._mixed("have joints with different limits", "ask robots of one type")
+        return np.array(limits).reshape(-1, 4)
 
     @property
     def pose(self) -> Floats:
@@ -149,22 +174,22 @@ class Robots:
         A live view. Set positions beyond the limits are pushed back within some ticks. Joints that close loops follow from the
         others and cannot be set (OrderError, code "loop-joint").
         """
-        self._facts  # raises: of one type
+        self._joint_facts  # raises: they have joints in common
         return self._core.joint_position(self._single)
 
     @joint_position.setter
     def joint_position(self, values: ArrayLike) -> None:
-        self._core.set_joint_positions(self._fill("joint_position", values, len(self._facts.axes)))
+        self._core.set_joint_positions(self._fill("joint_position", values, len(self._joint_facts.axes)))
 
     @property
     def joint_velocity(self) -> Floats:
         """Velocities of the joints, (N, joints): rad/s or m/s. A live view."""
-        self._facts  # raises: of one type
+        self._joint_facts  # raises: they have joints in common
         return self._core.joint_velocity(self._single)
 
     @joint_velocity.setter
     def joint_velocity(self, values: ArrayLike) -> None:
-        self._core.set_joint_velocities(self._fill("joint_velocity", values, len(self._facts.axes)))
+        self._core.set_joint_velocities(self._fill("joint_velocity", values, len(self._joint_facts.axes)))
 
     @property
     def joint_effort(self) -> Floats:
@@ -179,7 +204,7 @@ class Robots:
         >>> bool(arm.joint_effort[0, 1] < -50)                          # N m, holds itself at the shoulder
         True
         """
-        return self._read(self._core.joint_efforts, len(self._facts.axes))
+        return self._read(self._core.joint_efforts, len(self._joint_facts.axes))
 
     @property
     def energy(self) -> Floats:
@@ -222,6 +247,8 @@ class Robots:
 
     @property
     def _mujoco(self) -> MujocoOrder:
+        if len(self._facts.types) > 1:
+            raise self._mixed("have no order of coordinates in common", "select robots of one type")
         return MujocoOrder._of(self._facts)
 
     def link_pose(self, link: str) -> Floats:
@@ -268,9 +295,9 @@ class Robots:
         >>> cars.joint_velocity[0].round(2)[:2]
         array([ 8., 10.])
         """
-        facts = self._facts
+        facts = self._joint_facts
         names = facts.axes if joints is None else [joints] if isinstance(joints, str) else list(joints)
-        columns = [index_of("joint", name, facts.axes, f" of '{facts.name}'") for name in names]
+        columns = [self._number("joint", name, facts.axes, lambda own: own.axes) for name in names]
         if mode not in _MODES:
             raise unknown("motor mode", mode, _MODES)
         self._core.set_joints(columns, _MODES.index(mode), self._fill("targets", targets, len(columns)),
@@ -281,7 +308,7 @@ class Robots:
 
         Args:
             wrench: (N, 6): force in N at the link's centre of mass, torque in N m; world axes.
-            link: name; None: the first link.
+            link: name; None: the first link of each robot.
 
         >>> sim = roboss.Simulation(roboss.example("crossroads.sdf"))
         >>> sim.robots("car_2").apply_wrench([0, 0, 200, 0, 0, 0], ticks=50)
@@ -289,13 +316,13 @@ class Robots:
         >>> bool(sim.robots("car_2").twist[0, 2] > 1)
         True
         """
-        self._core.apply_wrenches(0 if link is None else self._link(link), self._fill("wrench", wrench, 6), whole("ticks", ticks))
+        self._core.apply_wrenches(None if link is None else self._link(link), self._fill("wrench", wrench, 6), whole("ticks", ticks))
 
     def command(self, name: str, values: Optional[ArrayLike] = None, **named: ArrayLike) -> None:
         """Gives a command to on-board controllers, from the next tick on; it holds until the next one.
 
         Args:
-            name: one of `commands`.
+            name: one of `commands`, or the last parts of a name.
             values: (N, values of the command); one row for all robots. Of a command that is a list (a trajectory):
                 its rows, for all robots.
             named: values by name, (N,) or one number each; those that are missing are 0.
@@ -308,7 +335,7 @@ class Robots:
         array([[5.6, 7.7]])
         """
         commands = self._facts.commands
-        number = index_of("command", name, [command[0] for command in commands], f" of '{self._facts.name}'")
+        number = self._command(name)
         fields, is_list = [field for field, _ in commands[number][1]], commands[number][2]
         if is_list:
             table = numbers(f"command '{name}'", values).ravel()
@@ -338,9 +365,7 @@ class Robots:
 
     def __getitem__(self, key: Union[str, int, slice, NDArray]) -> Union[Sensor, Robots]:
         if isinstance(key, str):
-            facts = self._facts
-            names = [name for name, _, _ in facts.sensors]
-            return self._sensor(index_of("sensor", key, names, f" of '{facts.name}'"))
+            return self._sensor(self._number("sensor", key, self.sensors, lambda own: [sensor[0] for sensor in own.sensors]))
         chosen = np.atleast_1d(np.asarray(self.ids)[key])
         if self._simulations is not self.simulation._simulations:
             raise StateError("robots were spawned or removed since these were asked for",
@@ -349,11 +374,34 @@ class Robots:
 
     def _sensor(self, number: int) -> Sensor:
         """The sensor of this number; of equal names `robots[name]` gives the first."""
-        facts = self._facts.sensors[number]
-        return (Radio if facts[1] == "radio" else Sensor)(self, number, *facts)
+        name, kind, rate, numbers = self._facts.sensors[number]
+        return (Radio if kind == "radio" else Sensor)(self, number, name, kind, rate, numbers)
 
     def _link(self, name: str) -> int:
-        return index_of("link", name, self._facts.links, f" of '{self._facts.name}'")
+        return self._number("link", name, self._facts.links, lambda own: own.links)
+
+    def _command(self, name: str) -> int:
+        """By its name, by the name that the first robot has for it, or by the end of one of them."""
+        commands = self._facts.commands
+        for fits in (lambda known: known == name, lambda known: known.endswith("/" + name)):
+            found = {number for number, command in enumerate(commands) if fits(command[0]) or fits(command[3])}
+            if len(found) == 1:
+                return found.pop()
+        return self._number("command", name, [command[0] for command in commands],
+                            lambda own: [command[0] for command in own.commands])
+
+    def _number(self, kind: str, name: str, known: Sequence[str], of_one: Callable[[TypeFacts], Sequence[str]]) -> int:
+        """The place of a part that all robots have. `of_one`: the names of such parts of one robot."""
+        if name in known:
+            return list(known).index(name)
+        lacking = [robot for robot, number in zip(self.names, self.ids) if name not in of_one(self._world._facts_of(number))]
+        if len(lacking) == len(self):
+            raise unknown(kind, name, known, f" of '{self._facts.name}'")
+        if not lacking:
+            raise self._mixed(f"have a {kind} '{name}' each, of different kinds", "select robots of one type")
+        shown = ", ".join(lacking[:8]) + (" ..." if len(lacking) > 8 else "")
+        raise UnknownNameError(f"{len(lacking)} of these {len(self)} robots have no {kind} '{name}': {shown}",
+                               "select the others, or a name that all have", "not-shared")
 
     @property
     def _single(self) -> bool:

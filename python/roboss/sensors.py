@@ -27,12 +27,12 @@ class Sensor:
     Attributes:
         name: as in the world file.
         kind: "laser", "gps", "imu", ...
-        update_rate: of the world file, Hz. It has no effect here: each `read` measures.
+        update_rate: of the first robot in the world file, Hz. It has no effect here: each `read` measures.
     """
 
-    def __init__(self, robots: Robots, number: int, name: str, kind: str, update_rate: float):
+    def __init__(self, robots: Robots, number: int, name: str, kind: str, update_rate: float, numbers: list[int]):
         self.robots, self.name, self.kind, self.update_rate = robots, name, kind, update_rate
-        self._number = number
+        self._number, self._numbers = number, numbers  # among the sensors of the set, and on each robot
 
     def read(self) -> NDArray[np.float64]:
         """The main value of the kind, (N, values): of a laser its ranges, (N, beams) in m; of a camera its images.
@@ -54,8 +54,9 @@ class Sensor:
         """All values by name, with noise, at this tick. Units: docs/sensors.md.
 
         Numbers and vectors have robots as the first axis; quaternions are named "..._quat_xyzw". Where robots have
-        different numbers of values (contact points), it is a list with an array for each robot (of a Batch: of the
-        first simulation, then of the second ...).
+        different numbers of values (contact points, lasers with different numbers of beams), it is a list with an array
+        for each robot (of a Batch: of the first simulation, then of the second ...). Images of different sizes raise
+        SensorError (code "mixed-shapes").
 
         >>> cars = roboss.Simulation(roboss.example("city.sdf")).robots("car_*")
         >>> reading = cars["compass"].read_all()
@@ -64,13 +65,13 @@ class Sensor:
         >>> reading["orientation_quat_xyzw"].shape, reading["heading"].shape
         ((50, 4), (50,))
         """
-        columns = _core.read(self.robots._simulations, list(self.robots.ids), self._number)
+        columns = _core.read(self.robots._simulations, list(self.robots.ids), self._numbers)
         return dict(self._shaped(*column) for column in columns if self._measures(*column))
 
     @property
     def units(self) -> dict[str, str]:
         """Units of the values of read_all(), by name; "" for counts, ratios, rotations."""
-        columns = _core.read(self.robots._simulations, list(self.robots.ids[:1]), self._number)
+        columns = _core.read(self.robots._simulations, list(self.robots.ids[:1]), self._numbers[:1])
         return {self._shaped(name, *rest)[0]: rest[0] for name, *rest in columns if self._measures(name, *rest)}
 
     def _measures(self, name: str, unit: str, kind: str, values, counts: list[int], image: list[int]) -> bool:
@@ -82,13 +83,13 @@ class Sensor:
 
     def _beams(self) -> tuple[str, NDArray, NDArray, NDArray]:
         """Of a laser: its link, its pose in the link (7,), the angles of columns and rows, rad."""
-        link, pose, columns, rows = _core.laser_beams(self.robots._simulations[0], int(self.robots.ids[0]), self._number)
+        link, pose, columns, rows = _core.laser_beams(self.robots._simulations[0], int(self.robots.ids[0]), self._numbers[0])
         return self.robots.links[link], np.array(pose), np.array(columns), np.array(rows)
 
     @property
     def _is_3d(self) -> bool:
         """Whether a box camera gives boxes in space."""
-        return _core.box_type(self.robots._simulations[0], int(self.robots.ids[0]), self._number) == "3d"
+        return _core.box_type(self.robots._simulations[0], int(self.robots.ids[0]), self._numbers[0]) == "3d"
 
     def _shaped(self, name: str, unit: str, kind: str, values, counts: list[int],
                 image: list[int]) -> tuple[str, Reading]:

@@ -77,23 +77,32 @@ class World:
         """What the type of this robot consists of."""
         number = self._types[robot]
         if number not in self._facts:
-            self._facts[number] = TypeFacts(**_core.facts_of(self._model, robot))
+            self._facts[number] = self._facts_of_set([robot])
         return self._facts[number]
+
+    def _facts_of_set(self, robots: Sequence[int]) -> TypeFacts:
+        """What these robots, at least one, have in common."""
+        return TypeFacts(**_core.facts_of(self._model, list(robots)))
 
 
 @dataclass(frozen=True)
 class TypeFacts:
-    """What all robots of a type have."""
+    """What robots have in common: those of one type everything, others what has one name."""
 
-    name: str
-    free_base: bool
+    types: list[str]  # names of the types that they are of
+    free_base: Optional[bool]  # None: of some
     links: list[str]
     axes: list[str]
-    limits: list[list[float]]
+    limits: Optional[list[list[float]]]  # None: they differ
     units: list[str]  # of the position of each axis: "rad" or "m"
     coordinates: list[str]  # of each axis: "axis", "ball" or "loop"
-    sensors: list[tuple[str, str, float]]
-    commands: list[tuple[str, tuple[tuple[str, str], ...], bool]]
+    sensors: list[tuple[str, str, float, list[int]]]  # name, kind, rate, its number on each robot
+    commands: list[tuple[str, tuple[tuple[str, str], ...], bool, str]]  # name, values, is a list, the first robot's name
+
+    @property
+    def name(self) -> str:
+        """Of the type, or of all of them."""
+        return ", ".join(self.types[:8]) + (" ..." if len(self.types) > 8 else "")
 
 
 def load(source: Union[str, os.PathLike], *, search_paths: Iterable[Union[str, os.PathLike]] = (), profile: str = "",

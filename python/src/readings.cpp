@@ -28,6 +28,7 @@ struct Column {
     std::vector<std::size_t> counts;  // numbers, texts or samples of each robot
     std::variant<std::vector<std::uint8_t>, std::vector<std::uint16_t>, std::vector<float>> samples;
     std::vector<int> shape;  // of each image: rows, columns, channels
+    bool alike = true;       // all images have this shape
 };
 
 void add(Column& column, std::initializer_list<double> numbers) {
@@ -60,11 +61,16 @@ void add(Column& column, const std::vector<std::string>& texts) {
 template <class T>
 void add(Column& column, const Image<T>& image) {
     column.type = "image";
-    if (!std::holds_alternative<std::vector<T>>(column.samples)) column.samples = std::vector<T>();
+    if (!std::holds_alternative<std::vector<T>>(column.samples)) {
+        column.alike = column.alike && column.counts.empty();
+        column.samples = std::vector<T>();
+    }
     auto& samples = std::get<std::vector<T>>(column.samples);
     samples.insert(samples.end(), image.samples.begin(), image.samples.end());
     column.counts.push_back(image.samples.size());
-    column.shape = {image.rows, image.columns, image.channels};
+    const std::vector<int> shape{image.rows, image.columns, image.channels};
+    if (column.shape.empty()) column.shape = shape;
+    column.alike = column.alike && column.shape == shape;
 }
 
 template <class T>
@@ -77,10 +83,13 @@ void add(Column& column, T value) {
     add(column, {static_cast<double>(value)});
 }
 
+/// One number of a sensor for each robot.
+using Sensors = std::vector<std::size_t>;
+
 /// Adds the readings of the robots of one run.
-Result<> read_all(RunAccess& run, const std::vector<std::uint32_t>& robots, std::size_t sensor,
+Result<> read_all(RunAccess& run, const std::vector<std::uint32_t>& robots, const Sensors& sensors,
                   std::vector<Column>& columns) {
-    for (const Result<Sample>& sample : run.read_all(robots, sensor)) {
+    for (const Result<Sample>& sample : run.read_all(robots, sensors)) {
         if (!sample) return sample.error();
         std::size_t at = 0;
         visit_fields(sample.value(), [&](const ReadingField& field, const auto& value) {
@@ -120,17 +129,21 @@ nb::object values_of(Column& column) {
 
 /// A list of (name, unit, type, numbers or texts, how many of them each robot has, shape of an image),
 /// simulation by simulation.
-nb::list read(const Simulations& simulations, const std::vector<std::uint32_t>& robots, std::size_t sensor) {
+nb::list read(const Simulations& simulations, const std::vector<std::uint32_t>& robots,
+              const Sensors& sensors) {
     std::vector<std::vector<Column>> parts(simulations.size());
     std::vector<Result<>> done(simulations.size(), Ok{});
     for_each_run(simulations,
-                 [&](std::size_t i, RunAccess& run) { done[i] = read_all(run, robots, sensor, parts[i]); });
+                 [&](std::size_t i, RunAccess& run) { done[i] = read_all(run, robots, sensors, parts[i]); });
     for (const Result<>& one : done)
         if (!one) raise("SensorError", one.error());
     std::vector<Column> columns = std::move(parts.front());
     for (std::size_t i = 1; i < parts.size(); ++i) append(columns, parts[i]);
     nb::list result;
     for (Column& column : columns) {
+        if (!column.alike)
+            raise("SensorError", {"the robots' cameras make images of different sizes or kinds",
+                                  "read robots of one type at a time", "mixed-shapes"});
         result.append(nb::make_tuple(column.name, column.unit, column.type, values_of(column), column.counts,
                                      column.shape));
     }
@@ -139,15 +152,16 @@ nb::list read(const Simulations& simulations, const std::vector<std::uint32_t>& 
 
 /// Sends a message by a radio of each robot: payloads[i] by row i, simulation by simulation, `to`: names of
 /// the addressees, "" for all who hear it. All of them, or, if one is refused, none.
-void transmit(const Simulations& simulations, const std::vector<std::uint32_t>& robots, std::size_t sensor,
-              const std::vector<nb::bytes>& payloads, const std::vector<std::string>& to) {
+void transmit(const Simulations& simulations, const std::vector<std::uint32_t>& robots,
+              const Sensors& sensors, const std::vector<nb::bytes>& payloads,
+              const std::vector<std::string>& to) {
     std::vector<std::vector<Order>> orders(simulations.size());
     for (std::size_t s = 0; s < simulations.size(); ++s) {
         const Model& model = simulations[s]->access().model();
         for (std::size_t r = 0; r < robots.size(); ++r) {
             const std::size_t row = s * robots.size() + r;
             const RobotId robot(robots[r]);
-            const Result<std::uint32_t> radio = radio_number(model, robot, sensor);
+            const Result<std::uint32_t> radio = radio_number(model, robot, sensors[r]);
             if (!radio) raise("SensorError", radio.error());
             Transmit message{radio.value(), {}, {}};
             if (!to[row].empty()) {
@@ -175,11 +189,12 @@ void transmit(const Simulations& simulations, const std::vector<std::uint32_t>& 
 /// For each robot, simulation by simulation, the messages that its radio received since the last call:
 /// (sender, addressee or "", sent at s, arrived at s, channel, strength dBm, payload).
 nb::list received(const Simulations& simulations, const std::vector<std::uint32_t>& robots,
-                  std::size_t sensor) {
+                  const Sensors& sensors) {
     using Messages = Result<std::vector<RadioMessage>>;
     std::vector<std::vector<Messages>> all(simulations.size());
     for_each_run(simulations, [&](std::size_t i, RunAccess& run) {
-        for (const std::uint32_t robot : robots) all[i].push_back(run.received(RobotId(robot), sensor));
+        for (std::size_t r = 0; r < robots.size(); ++r)
+            all[i].push_back(run.received(RobotId(robots[r]), sensors[r]));
     });
     nb::list result;
     for (std::size_t i = 0; i < all.size(); ++i) {
@@ -223,10 +238,10 @@ nb::tuple laser_beams(const std::shared_ptr<Simulation>& simulation, std::uint32
 }  // namespace
 
 void bind_readings(nb::module_& module) {
-    module.def("read", &read, nb::arg("simulations"), nb::arg("robots"), nb::arg("sensor"));
-    module.def("transmit", &transmit, nb::arg("simulations"), nb::arg("robots"), nb::arg("sensor"),
+    module.def("read", &read, nb::arg("simulations"), nb::arg("robots"), nb::arg("sensors"));
+    module.def("transmit", &transmit, nb::arg("simulations"), nb::arg("robots"), nb::arg("sensors"),
                nb::arg("payloads"), nb::arg("to"));
-    module.def("received", &received, nb::arg("simulations"), nb::arg("robots"), nb::arg("sensor"));
+    module.def("received", &received, nb::arg("simulations"), nb::arg("robots"), nb::arg("sensors"));
     module.def("box_type", &box_type, nb::arg("simulation"), nb::arg("robot"), nb::arg("sensor"));
     module.def("laser_beams", &laser_beams, nb::arg("simulation"), nb::arg("robot"), nb::arg("sensor"));
 }

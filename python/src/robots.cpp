@@ -1,5 +1,6 @@
 // RobotSet: arrays of some robots of a Simulation. Rows and columns are checked in Python; sizes are checked
 // again in C++.
+#include <nanobind/stl/optional.h>
 #include <nanobind/stl/shared_ptr.h>
 #include <nanobind/stl/vector.h>
 
@@ -80,11 +81,10 @@ void fill(Robots& robots, const Out& out) {
                     [&](RunAccess& run, std::span<double> part) { (robots.set().*Read)(run, part); });
 }
 
-template <void (RobotSet::*Read)(const RunAccess&, LinkId, std::span<double>) const>
-void fill_link(Robots& robots, std::uint32_t link, const Out& out) {
-    robots.for_each(numbers(out), [&](RunAccess& run, std::span<double> part) {
-        (robots.set().*Read)(run, LinkId(link), part);
-    });
+template <void (RobotSet::*Read)(const RunAccess&, std::size_t, std::span<double>) const>
+void fill_link(Robots& robots, std::size_t link, const Out& out) {
+    robots.for_each(numbers(out),
+                    [&](RunAccess& run, std::span<double> part) { (robots.set().*Read)(run, link, part); });
 }
 
 /// Fills flags, a row for each simulation, without the GIL: it steps copies of the states.
@@ -143,12 +143,12 @@ void bind_robots(nb::module_& module) {
             nb::arg("columns"), nb::arg("mode"), nb::arg("targets"), nb::arg("max_effort"))
         .def(
             "apply_wrenches",
-            [](Robots& r, std::uint32_t link, const In& wrenches, Tick ticks) {
+            [](Robots& r, std::optional<std::size_t> link, const In& wrenches, Tick ticks) {
                 r.for_each(numbers(wrenches), [&](RunAccess& run, std::span<const double> part) {
-                    raise_if_refused(r.set().apply_wrenches(run, LinkId(link), part, ticks));
+                    raise_if_refused(r.set().apply_wrenches(run, link, part, ticks));
                 });
             },
-            nb::arg("link"), nb::arg("wrenches"), nb::arg("ticks"))
+            nb::arg("link").none(), nb::arg("wrenches"), nb::arg("ticks"))
         .def(
             "command",
             [](Robots& r, std::size_t channel, std::size_t values, const In& rows) {

@@ -9,6 +9,7 @@
 #include <array>
 #include <cinttypes>
 #include <cstdio>
+#include <map>
 
 #include "bindings.h"
 #include "errors.h"
@@ -117,22 +118,39 @@ std::vector<std::string> units_of(const RobotType& type, const std::vector<Joint
     return units;
 }
 
-nb::list sensors_of(const RobotType& type) {
+/// (name, kind, rate, its number on the robot of each row) of each sensor.
+nb::list sensors_of(const RobotSet& set) {
     nb::list sensors;
-    for (const SensorInfo& sensor : type.sensors)
-        sensors.append(nb::make_tuple(sensor.spec.name, sensor.spec.kind().name, sensor.spec.update_rate_hz));
+    const SharedParts& shared = set.shared();
+    for (const SharedPart& part : shared.sensors) {
+        const SensorSpec& spec = shared.types[0]->sensors[part.of[0]].spec;
+        std::vector<std::size_t> numbers;
+        for (const std::uint32_t type : shared.type_of_row) numbers.push_back(part.of[type]);
+        sensors.append(nb::make_tuple(part.name, spec.kind().name, spec.update_rate_hz, numbers));
+    }
     return sensors;
 }
 
-nb::list commands_of(const RobotType& type) {
+/// (name, its values, whether it is a list, the first robot's own name for it) of each command.
+nb::list commands_of(const RobotSet& set) {
     nb::list commands;
-    for (const ChannelInfo& info : type.channels) {
+    for (const SharedPart& part : set.shared().commands) {
+        const Channel& channel = set.shared().types[0]->channels[part.of[0]].channel;
         nb::list values;
-        for (const ChannelValue& value : info.channel.values)
+        for (const ChannelValue& value : channel.values)
             values.append(nb::make_tuple(value.name, value.unit));
-        commands.append(nb::make_tuple(info.channel.name, nb::tuple(values), info.channel.is_list));
+        commands.append(nb::make_tuple(part.name, nb::tuple(values), channel.is_list, channel.name));
     }
     return commands;
+}
+
+/// What is the same of all RobotTypes of the set; None: they differ.
+template <class Of>
+nb::object same_of(const RobotSet& set, const Of& of) {
+    const auto first = of(0);
+    for (std::size_t t = 1; t < set.shared().types.size(); ++t)
+        if (of(t) != first) return nb::none();
+    return nb::cast(first);
 }
 
 template <class Named>
@@ -142,19 +160,29 @@ std::vector<std::string> names_of(const std::vector<Named>& all) {
     return names;
 }
 
-nb::dict facts_of(const std::shared_ptr<const Model>& model, std::size_t robot) {
-    const RobotSet one(model, {RobotId(robot)});
-    const RobotType& type = *one.type();
+/// What the robots, at least one, have in common.
+nb::dict facts_of(const std::shared_ptr<const Model>& model, const std::vector<std::uint32_t>& robots) {
+    std::vector<RobotId> ids;
+    for (const std::uint32_t robot : robots) ids.emplace_back(robot);
+    const RobotSet set(model, std::move(ids));
+    const SharedParts& shared = set.shared();
+    const auto of_axes = [&](const auto& of) {
+        return [&](std::size_t t) { return of(*shared.types[t], shared.axes_of_types[t]); };
+    };
+    std::map<TypeId, std::string> types;
+    for (const RobotType* type : shared.types) types.try_emplace(type->like, type->name);
+    std::vector<std::string> names;
+    for (const auto& [type, name] : types) names.push_back(name);
     nb::dict facts;
-    facts["name"] = type.name;
-    facts["free_base"] = type.free_base;
-    facts["links"] = names_of(type.links);
-    facts["axes"] = names_of(one.axes());
-    facts["limits"] = limits_of(type, one.axes());
-    facts["units"] = units_of(type, one.axes());
-    facts["coordinates"] = coordinates_of(type, one.axes());
-    facts["sensors"] = sensors_of(type);
-    facts["commands"] = commands_of(type);
+    facts["types"] = names;
+    facts["free_base"] = same_of(set, [&](std::size_t t) { return shared.types[t]->free_base; });
+    facts["links"] = names_of(shared.links);
+    facts["axes"] = names_of(shared.axes);
+    facts["limits"] = same_of(set, of_axes(limits_of));
+    facts["units"] = units_of(*shared.types[0], shared.axes_of_types[0]);
+    facts["coordinates"] = coordinates_of(*shared.types[0], shared.axes_of_types[0]);
+    facts["sensors"] = sensors_of(set);
+    facts["commands"] = commands_of(set);
     return facts;
 }
 
@@ -185,7 +213,7 @@ void bind_world(nb::module_& module) {
         .def_prop_ro("robots", [](const Model& m) { return names_of(m.robots); })
         .def_prop_ro("types", &types_of)
         .def_prop_ro("scenery", [](const Model& m) { return names_of(m.statics); });
-    module.def("facts_of", &facts_of, nb::arg("model"), nb::arg("robot"));
+    module.def("facts_of", &facts_of, nb::arg("model"), nb::arg("robots"));
 
     module.def(
         "load",

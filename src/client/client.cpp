@@ -185,7 +185,7 @@ OrderResult Client::set_joint_state(const RobotRef& robot, const JointRef& joint
 
 OrderResult Client::command(const RobotRef& robot, const std::string& name, std::vector<double> values) {
     const RobotId id = this->robot(robot);
-    const auto found = model().type_of(id).find_channel(name);
+    const auto found = model().type_of(id).find_command(name);
     if (!found)
         refuse_name(
             called(known(id)) + " has no command", name, "it",

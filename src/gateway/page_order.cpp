@@ -22,7 +22,7 @@ struct Give {
         const Model& model = client.model();
         if (robot.index() >= model.robots.size()) return client.order(robot, Command{0, a.values});
         const RobotType& type = model.type_of(robot);
-        if (const auto channel = type.find_channel(a.name))
+        if (const auto channel = type.find_command(a.name))
             return client.order(robot, Command{static_cast<std::uint32_t>(*channel), a.values});
         std::string known;
         for (const ChannelInfo& info : type.channels)

@@ -297,7 +297,7 @@ TEST(RobotSet, GivesPosesAndTwistsOfLinks) {
     const auto model = crowd(2);
     const auto run = run_of(model);
     const RobotSet cars = all_of(model);
-    const LinkId wheel = *cars.type()->find_link(cars.type()->links[1].name);
+    const std::size_t wheel = 1;
     std::vector<double> poses(14), link(14), twists(12);
     cars.poses(*run, poses);
     cars.link_poses(*run, wheel, link);

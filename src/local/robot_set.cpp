@@ -18,9 +18,9 @@ void read_joints(const RobotSet& set, const RunAccess& run, double JointState::*
                  std::span<double> out) {
     ROBOSS_CHECK(out.size() == set.size() * set.axes().size(), std::to_string(out.size()) + " numbers");
     double* to = out.data();
-    for (const RobotId robot : set.robots())
-        for (const JointAxis& axis : set.axes())
-            *to++ = joint_state(*set.type(), run.state(robot), axis.joint, axis.axis).*value;
+    for (std::size_t i = 0; i < set.size(); ++i)
+        for (const JointAxis& axis : set.axes_of_row(i))
+            *to++ = joint_state(set.type_of_row(i), run.state(set.robots()[i]), axis.joint, axis.axis).*value;
 }
 
 /// Adds the link's kinetic and potential energy, J.
@@ -44,16 +44,7 @@ bool carries(const ContactReport& contact, const Vec3& gravity) {
 }  // namespace
 
 RobotSet::RobotSet(std::shared_ptr<const Model> model, std::vector<RobotId> robots)
-    : model_(std::move(model)), robots_(std::move(robots)) {
-    for (const RobotId robot : robots_)
-        ROBOSS_CHECK(robot.index() < model_->robots.size(), "robot " + std::to_string(robot.value));
-    if (robots_.empty()) return;
-    const TypeId first = model_->robots[robots_.front().index()].type;
-    const auto is_same = [&](RobotId robot) { return model_->robots[robot.index()].type == first; };
-    if (!std::ranges::all_of(robots_, is_same)) return;
-    type_ = &model_->types[first.index()];
-    axes_ = axes_of_joints(*type_);
-}
+    : model_(std::move(model)), robots_(std::move(robots)), shared_(*model_, robots_) {}
 
 double* RobotSet::row(std::span<double> out, std::size_t robot, std::size_t columns) const {
     ROBOSS_CHECK(out.size() == size() * columns, std::to_string(out.size()) + " numbers");
@@ -76,15 +67,17 @@ void RobotSet::twists(const RunAccess& run, std::span<double> out) const {
     }
 }
 
-void RobotSet::link_poses(const RunAccess& run, LinkId link, std::span<double> out) const {
+void RobotSet::link_poses(const RunAccess& run, std::size_t link, std::span<double> out) const {
     for (std::size_t i = 0; i < size(); ++i) {
-        put_row(to_pose(link_pose(*type_, run.state(robots_[i]), link)), row(out, i, kPoseColumns));
+        const LinkId id(part_of(shared_.links[link], i));
+        put_row(to_pose(link_pose(type_of_row(i), run.state(robots_[i]), id)), row(out, i, kPoseColumns));
     }
 }
 
-void RobotSet::link_twists(const RunAccess& run, LinkId link, std::span<double> out) const {
+void RobotSet::link_twists(const RunAccess& run, std::size_t link, std::span<double> out) const {
     for (std::size_t i = 0; i < size(); ++i) {
-        const Twist twist = link_twist(*type_, run.state(robots_[i]), link);
+        const LinkId id(part_of(shared_.links[link], i));
+        const Twist twist = link_twist(type_of_row(i), run.state(robots_[i]), id);
         put_row(twist.linear, twist.angular, row(out, i, kTwistColumns));
     }
 }
@@ -98,11 +91,11 @@ void RobotSet::joint_velocities(const RunAccess& run, std::span<double> out) con
 }
 
 void RobotSet::joint_efforts(const RunAccess& run, std::span<double> out) const {
-    ROBOSS_CHECK(out.size() == size() * axes_.size(), std::to_string(out.size()) + " numbers");
+    ROBOSS_CHECK(out.size() == size() * axes().size(), std::to_string(out.size()) + " numbers");
     double* to = out.data();
-    for (const RobotId robot : robots_)
-        for (const JointAxis& axis : axes_)
-            *to++ = motor_effort(*model_, *type_, run.state(robot), axis.joint, axis.axis);
+    for (std::size_t i = 0; i < size(); ++i)
+        for (const JointAxis& axis : axes_of_row(i))
+            *to++ = motor_effort(*model_, type_of_row(i), run.state(robots_[i]), axis.joint, axis.axis);
 }
 
 void RobotSet::energies(const RunAccess& run, std::span<double> out) const {
@@ -162,16 +155,16 @@ Result<> RobotSet::set_twists(RunAccess& run, std::span<const double> twists) co
 /// One order for each joint of each robot: all, or, if one is refused, none.
 Result<> RobotSet::change_joints(RunAccess& run, std::span<const double> values,
                                  std::vector<double> SetJointState::*kind) const {
-    ROBOSS_CHECK(values.size() == size() * axes_.size(), std::to_string(values.size()) + " numbers");
+    ROBOSS_CHECK(values.size() == size() * axes().size(), std::to_string(values.size()) + " numbers");
     std::vector<Order> orders;
     orders.reserve(values.size());
     const double* from = values.data();
-    for (const RobotId robot : robots_)
-        for (std::size_t k = 0; k < axes_.size(); ++k) {
-            if (axes_[k].axis == 0) {
+    for (std::size_t i = 0; i < size(); ++i)
+        for (const JointAxis& axis : axes_of_row(i)) {
+            if (axis.axis == 0) {
                 SetJointState state;
-                state.joint = axes_[k].joint;
-                orders.push_back({run.tick(), ClientId(0U), 0, robot, std::move(state)});
+                state.joint = axis.joint;
+                orders.push_back({run.tick(), ClientId(0U), 0, robots_[i], std::move(state)});
             }
             (std::get<SetJointState>(orders.back().action).*kind).push_back(*from++);
         }
@@ -194,16 +187,17 @@ Result<> RobotSet::set_joints(RunAccess& run, std::span<const std::size_t> colum
                               std::span<const double> targets, double max_effort) const {
     ROBOSS_CHECK(targets.size() == size() * columns.size(), std::to_string(targets.size()) + " numbers");
     return give(run, columns.size(), [&](std::size_t i, std::size_t k) {
-        const JointAxis& axis = axes_[columns[k]];
+        const JointAxis& axis = axes_of_row(i)[columns[k]];
         return SetJoint{axis.joint, axis.axis, mode, targets[i * columns.size() + k], max_effort};
     });
 }
 
-Result<> RobotSet::apply_wrenches(RunAccess& run, LinkId link, std::span<const double> wrenches,
-                                  Tick ticks) const {
+Result<> RobotSet::apply_wrenches(RunAccess& run, std::optional<std::size_t> link,
+                                  std::span<const double> wrenches, Tick ticks) const {
     ROBOSS_CHECK(wrenches.size() == size() * 6, std::to_string(wrenches.size()) + " numbers");
     return give(run, 1, [&](std::size_t i, std::size_t) {
-        return ApplyWrench{link, vec3_at(&wrenches[i * 6]), vec3_at(&wrenches[i * 6 + 3]), ticks};
+        const LinkId id(link ? part_of(shared_.links[*link], i) : 0);
+        return ApplyWrench{id, vec3_at(&wrenches[i * 6]), vec3_at(&wrenches[i * 6 + 3]), ticks};
     });
 }
 
@@ -212,7 +206,8 @@ Result<> RobotSet::command(RunAccess& run, std::size_t channel, std::size_t valu
     ROBOSS_CHECK(rows.size() == size() * values, std::to_string(rows.size()) + " numbers");
     return give(run, 1, [&](std::size_t i, std::size_t) {
         const std::span<const double> row = rows.subspan(i * values, values);
-        return Command{static_cast<std::uint32_t>(channel), {row.begin(), row.end()}};
+        const std::size_t number = part_of(shared_.commands[channel], i);
+        return Command{static_cast<std::uint32_t>(number), {row.begin(), row.end()}};
     });
 }
 

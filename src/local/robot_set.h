@@ -4,11 +4,12 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "local/run_access.h"
-#include "model/joint_axis.h"
+#include "local/shared_parts.h"
 
 namespace roboss {
 
@@ -26,11 +27,17 @@ class RobotSet {
     std::size_t size() const { return robots_.size(); }             ///< rows
     const std::vector<RobotId>& robots() const { return robots_; }  ///< by row
     const Model& model() const { return *model_; }                  ///< of the robots
-    /// The type that all robots are of; nullptr: they differ, or there are none. Joints, links, sensors and
-    /// commands need one.
-    const RobotType* type() const { return type_; }
-    /// Columns of the arrays of joints: each axis of each joint that moves, in the order of the file.
-    const std::vector<JointAxis>& axes() const { return axes_; }
+    /// What all robots have; joints, links, sensors and commands are counted by it.
+    const SharedParts& shared() const { return shared_; }
+    /// Columns of the arrays of joints: each axis of each joint that moves, in the order of the first robot's
+    /// file.
+    const std::vector<SharedPart>& axes() const { return shared_.axes; }
+    /// What the robot of a row has as those columns.
+    const std::vector<JointAxis>& axes_of_row(std::size_t row) const {
+        return shared_.axes_of_types[shared_.type_of_row[row]];
+    }
+    /// The RobotType of the robot of a row.
+    const RobotType& type_of_row(std::size_t row) const { return *shared_.types[shared_.type_of_row[row]]; }
 
     /// Poses of the robot (SDF model) frames in the world, size() x kPoseColumns: m, unit quaternions.
     void poses(const RunAccess& run, std::span<double> out) const;
@@ -38,9 +45,9 @@ class RobotSet {
     /// is fixed.
     void twists(const RunAccess& run, std::span<double> out) const;
     /// Poses of a link's frame of each robot in the world, as poses().
-    void link_poses(const RunAccess& run, LinkId link, std::span<double> out) const;
+    void link_poses(const RunAccess& run, std::size_t link, std::span<double> out) const;
     /// Velocities of a link's frame at its origin, as twists().
-    void link_twists(const RunAccess& run, LinkId link, std::span<double> out) const;
+    void link_twists(const RunAccess& run, std::size_t link, std::span<double> out) const;
     /// Positions of the joints, size() x axes(): rad or m.
     void joint_positions(const RunAccess& run, std::span<double> out) const;
     /// Velocities of the joints, size() x axes(): rad/s or m/s.
@@ -70,15 +77,20 @@ class RobotSet {
     /// Setpoints of some axes, size() x columns.size(). A negative max_effort: the joint's own bound.
     Result<> set_joints(RunAccess& run, std::span<const std::size_t> columns, MotorMode mode,
                         std::span<const double> targets, double max_effort = -1) const;
-    /// Applies a wrench to this link of each robot for `ticks` ticks. A row is the force (N, at the link's
-    /// centre of mass) and the torque (N m), size() x 6.
-    Result<> apply_wrenches(RunAccess& run, LinkId link, std::span<const double> wrenches, Tick ticks) const;
+    /// Applies a wrench to this link of each robot (nullopt: to its first one) for `ticks` ticks. A row is
+    /// the force (N, at the link's centre of mass) and the torque (N m), size() x 6.
+    Result<> apply_wrenches(RunAccess& run, std::optional<std::size_t> link, std::span<const double> wrenches,
+                            Tick ticks) const;
     /// A command of on-board controllers, size() x values.
     Result<> command(RunAccess& run, std::size_t channel, std::size_t values,
                      std::span<const double> rows) const;
 
   private:
     double* row(std::span<double> out, std::size_t robot, std::size_t columns) const;
+    /// Number of a shared part in the RobotType of a row.
+    std::size_t part_of(const SharedPart& part, std::size_t row) const {
+        return part.of[shared_.type_of_row[row]];
+    }
     /// The action number `k` of a row.
     using ActionOfRow = std::function<Action(std::size_t row, std::size_t k)>;
     Result<> give(RunAccess& run, std::size_t orders_per_row, const ActionOfRow& action) const;
@@ -88,8 +100,7 @@ class RobotSet {
 
     std::shared_ptr<const Model> model_;
     std::vector<RobotId> robots_;
-    const RobotType* type_ = nullptr;
-    std::vector<JointAxis> axes_;
+    SharedParts shared_;
 };
 
 }  // namespace roboss

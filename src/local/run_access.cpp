@@ -32,11 +32,14 @@ Result<std::vector<RadioMessage>> RunAccess::received(RobotId robot, std::size_t
     return receive({*model_, robot, sensor, state(robot), tick(), seed(), *this, since});
 }
 
-std::vector<Result<Sample>> RunAccess::read_all(std::span<const std::uint32_t> robots, std::size_t sensor) {
+std::vector<Result<Sample>> RunAccess::read_all(std::span<const std::uint32_t> robots,
+                                                std::span<const std::size_t> sensors) {
+    ROBOSS_CHECK(robots.size() == sensors.size(), std::to_string(sensors.size()) + " sensors");
     std::vector<SensorQuery> queries;
-    for (const std::uint32_t robot : robots) {
-        if (robot >= states().size()) return {read(RobotId(robot), sensor)};
-        queries.push_back({*model_, RobotId(robot), sensor, state(RobotId(robot)), tick(), seed(), *this});
+    for (std::size_t i = 0; i < robots.size(); ++i) {
+        const RobotId robot(robots[i]);
+        if (robot.index() >= states().size()) return {read(robot, sensors[i])};
+        queries.push_back({*model_, robot, sensors[i], state(robot), tick(), seed(), *this});
     }
     return measure_all(queries);
 }

@@ -52,7 +52,9 @@ class RunAccess : private SensorSources {
     /// as read(). read() gives all that are still kept.
     Result<std::vector<RadioMessage>> received(RobotId robot, std::size_t sensor);
     /// As read(), of several robots, in their order; lasers and other sensors of rays on all threads.
-    std::vector<Result<Sample>> read_all(std::span<const std::uint32_t> robots, std::size_t sensor);
+    /// `sensors`: one for each robot.
+    std::vector<Result<Sample>> read_all(std::span<const std::uint32_t> robots,
+                                         std::span<const std::size_t> sensors);
     /// All contact points of the tick that begins at tick(), as long as no order takes effect at it
     /// (physics/probe.h). Valid until the world is changed.
     std::span<const ContactReport> contacts() { return step_probe().contacts(); }

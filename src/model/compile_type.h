@@ -38,6 +38,8 @@ Material to_material(const SurfaceSpec& surface);
 void add_to_hash(Hash& hash, const Material& material);
 void add_to_hash(Hash& hash, const SensorInfo& sensor);
 void add_to_hash(Hash& hash, const OnboardInfo& onboard);
+/// The same of what a step reads: links, joints and channels by their numbers, no names and topics.
+void add_to_step_hash(Hash& hash, const OnboardInfo& onboard);
 
 /// Adds the on-board controllers of `spec` whose joints and links are in this part (those that name none: to
 /// the main part), their channels and memory. A controller that cannot run is left out with a warning.
@@ -88,7 +90,10 @@ std::vector<std::pair<int, int>> self_pairs_of(const RobotType& type, const Mode
 /// the zero pose.
 void compute_mobility(RobotType& type);
 
-/// Hash over every number of the type that the physics reads.
+/// Hash over every number and name of the type.
 std::uint64_t type_hash(const RobotType& type);
+/// Hash over what a step reads of the type, after lay_out_onboard(). Robots with equal ones may differ in
+/// names, topics and sensors.
+std::uint64_t step_hash(const RobotType& type);
 
 }  // namespace roboss

@@ -9,6 +9,7 @@
 
 #include "model/accuracy.h"
 #include "model/compile_type.h"
+#include "model/robot_names.h"
 #include "model/seal.h"
 
 namespace roboss {
@@ -73,19 +74,6 @@ void remove_unused_shapes(Model& model) {
     const auto is_unused = [&](const auto& held) { return used.erase(held.get()) == 0; };
     std::erase_if(model.hulls, is_unused);
     std::erase_if(model.surfaces, is_unused);
-}
-
-/// The robots with this name; "x*": those whose names begin with x.
-std::vector<std::uint32_t> find_robots(const Model& model,
-                                       const std::unordered_map<std::string_view, std::uint32_t>& by_name,
-                                       const std::string& name) {
-    if (const auto found = by_name.find(name); found != by_name.end()) return {found->second};
-    std::vector<std::uint32_t> found;
-    if (!name.ends_with('*')) return found;
-    const std::string_view start = std::string_view(name).substr(0, name.size() - 1);
-    for (std::uint32_t i = 0; i < model.robots.size(); ++i)
-        if (model.robots[i].name.starts_with(start)) found.push_back(i);
-    return found;
 }
 
 Error taken(const std::string& name, bool by_copy) {
@@ -323,11 +311,13 @@ Result<ModelEdit> without_robots(const Model& model, const std::vector<std::stri
     for (std::uint32_t i = 0; i < model.robots.size(); ++i) by_name.emplace(model.robots[i].name, i);
     std::set<std::uint32_t> gone;
     for (const std::string& name : names) {
-        const std::vector<std::uint32_t> robots = find_robots(model, by_name, name);
-        if (robots.empty())
-            return Error{"there is no robot '" + name + "' in the world",
-                         "see `roboss control status` for their names", "no-robot"};
-        gone.insert(robots.begin(), robots.end());
+        if (const auto found = by_name.find(name); found != by_name.end()) {
+            gone.insert(found->second);
+            continue;
+        }
+        const std::vector<RobotId> robots = find_robots(model, name);
+        if (robots.empty()) return no_such_robot(model, name);
+        for (const RobotId robot : robots) gone.insert(robot.value);
     }
     auto changed = std::make_shared<Model>(model);
     changed->robots.clear();

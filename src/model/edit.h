@@ -53,7 +53,7 @@ struct RobotFrom {
 /// same step and fluids. Error codes: name-taken.
 Result<ModelEdit> with_robots(const Model& model, std::span<const RobotFrom> robots);
 
-/// Without these robots; "x*" names all whose names begin with x. Types, hulls and surfaces that only they
+/// Without these robots, each a name or a pattern (find_robots()). Types, hulls and surfaces that only they
 /// had go with them; their scenery, if any, stays.
 Result<ModelEdit> without_robots(const Model& model, const std::vector<std::string>& names);
 

@@ -44,8 +44,12 @@ void add_body(Hash& hash, const Body& body) {
     if (body.reversed_ball) add(hash, 1);
 }
 
-void add_link(Hash& hash, const Link& link) {
-    hash.add(std::string_view(link.name)), add(hash, link.body), add(hash, link.X_BL), add(hash, link.p_BC);
+/// What of a type a hash covers: everything, or what a step reads.
+enum class Cover { kAll, kStep };
+
+void add_link(Hash& hash, const Link& link, Cover cover) {
+    if (cover == Cover::kAll) hash.add(std::string_view(link.name));
+    add(hash, link.body), add(hash, link.X_BL), add(hash, link.p_BC);
     hash.add(link.mass), add(hash, link.inertia_C);
     for (int x : {link.gravity ? 1 : 0, link.carrier, link.parent}) add(hash, x);
 }
@@ -73,14 +77,22 @@ void add_coupling(Hash& hash, const CoordinateCoupling& coupling) {
     for (double x : {coupling.multiplier, coupling.offset, coupling.inverse_inertia}) hash.add(x);
 }
 
-void add_shape(Hash& hash, const BodyShape& s) {
+void add_joint(Hash& hash, const Joint& joint, Cover cover) {
+    if (cover == Cover::kAll) hash.add(std::string_view(joint.name));
+    add(hash, joint.v_index), add(hash, joint.reversed ? 1 : 0), add(hash, joint.p_BJ);
+}
+
+void add_shape(Hash& hash, const BodyShape& s, Cover cover) {
     add(hash, static_cast<int>(s.shape.kind)), add(hash, s.body), add(hash, s.X_BS), add(hash, s.shape.half);
     for (double x : {s.shape.radius, s.shape.half_length}) hash.add(x);
     add_to_hash(hash, s.material);
     if (s.direction_body >= 0) add(hash, s.direction_body);
     if (s.shape.hull != nullptr) hash.add(s.shape.hull->hash);
     if (!s.moves) add(hash, 1);
-    if (s.laser_retro != 0) hash.add(std::string_view("retro")), hash.add(s.laser_retro);
+    if (cover == Cover::kStep)
+        add(hash, static_cast<int>(s.link.value));
+    else if (s.laser_retro != 0)
+        hash.add(std::string_view("retro")), hash.add(s.laser_retro);
 }
 
 void add_drag(Hash& hash, const LinkDrag& drag) {
@@ -95,26 +107,24 @@ void add_fluid(Hash& hash, const LinkFluid& fluid) {
     hash.add(std::span<const double>(fluid.added_mass));
 }
 
-}  // namespace
-
-std::uint64_t type_hash(const RobotType& type) {
+std::uint64_t hash_of(const RobotType& type, Cover cover) {
     Hash hash;
     add(hash, type.free_base ? 1 : 0), add(hash, type.self_collide ? 1 : 0),
         add(hash, type.is_static ? 1 : 0), add(hash, type.may_sleep ? 1 : 0), add(hash, type.X_RB);
     for (const Body& body : type.bodies) add_body(hash, body);
     for (const Dof& dof : type.dofs) add_dof(hash, dof);
-    for (const BodyShape& shape : type.shapes) add_shape(hash, shape);
+    for (const BodyShape& shape : type.shapes) add_shape(hash, shape, cover);
     for (const LinkDrag& drag : type.drags) add_drag(hash, drag);
     for (const LinkFluid& fluid : type.fluids) add_fluid(hash, fluid);
-    for (const SensorInfo& sensor : type.sensors) add_to_hash(hash, sensor);
-    for (const Link& link : type.links) add_link(hash, link);
-    for (const Joint& joint : type.joints)
-        hash.add(std::string_view(joint.name)), add(hash, joint.v_index), add(hash, joint.reversed ? 1 : 0),
-            add(hash, joint.p_BJ);
+    if (cover == Cover::kAll)
+        for (const SensorInfo& sensor : type.sensors) add_to_hash(hash, sensor);
+    for (const Link& link : type.links) add_link(hash, link, cover);
+    for (const Joint& joint : type.joints) add_joint(hash, joint, cover);
     hash.add(std::span<const double>(type.initial_q));
     for (const LoopJoint& loop : type.loops) add_loop(hash, loop);
     for (const CoordinateCoupling& coupling : type.couplings) add_coupling(hash, coupling);
-    for (const OnboardInfo& onboard : type.onboard) add_to_hash(hash, onboard);
+    for (const OnboardInfo& onboard : type.onboard)
+        cover == Cover::kAll ? add_to_hash(hash, onboard) : add_to_step_hash(hash, onboard);
     if (type.kinematic) hash.add(std::string_view("kinematic"));
     if (type.self_collide && type.self_pairs != self_pairs_of(type, nullptr)) {
         hash.add(std::string_view("self-pairs"));
@@ -122,6 +132,16 @@ std::uint64_t type_hash(const RobotType& type) {
     }
     if (!type.scenery.empty()) add(hash, type.scenery.min), add(hash, type.scenery.max);
     return hash.value();
+}
+
+}  // namespace
+
+std::uint64_t type_hash(const RobotType& type) {
+    return hash_of(type, Cover::kAll);
+}
+
+std::uint64_t step_hash(const RobotType& type) {
+    return hash_of(type, Cover::kStep);
 }
 
 int Joint::axis_offset(int axis) const {
@@ -148,6 +168,17 @@ std::optional<std::size_t> RobotType::find_channel(const std::string& wanted) co
     for (std::size_t i = 0; i < channels.size(); ++i)
         if (channels[i].channel.name == wanted) return i;
     return std::nullopt;
+}
+
+std::optional<std::size_t> RobotType::find_command(const std::string& wanted) const {
+    if (const auto named = find_channel(wanted)) return named;
+    std::optional<std::size_t> found;
+    for (std::size_t i = 0; i < channels.size(); ++i) {
+        if (wanted.empty() || !channels[i].channel.name.ends_with("/" + wanted)) continue;
+        if (found) return std::nullopt;
+        found = i;
+    }
+    return found;
 }
 
 std::optional<RobotId> Model::find_robot(const std::string& wanted) const {

@@ -235,7 +235,9 @@ struct ChannelInfo {
     int list_index = -1;  ///< of a list: of its rows in RobotState::lists; then the values are not kept
 };
 
-/// All that robots of one kind have in common.
+/// All that robots of one kind have in common, with their names. Robots are of one *type*, in the sense of
+/// docs/glossary.md, if a step treats them alike, whatever their parts, topics and sensors are called: then
+/// their RobotTypes have one RobotType::like.
 struct RobotType {
     std::string name;       ///< as ModelSpec::name
     bool free_base = true;  ///< whether nothing fixes body 0 to the world
@@ -280,7 +282,10 @@ struct RobotType {
     double mass = 0;           ///< kg, of all bodies
     /// m, base frame: holds the scenery whose surfaces its controllers move; empty: there is none.
     Aabb scenery;
-    std::uint64_t hash = 0;  ///< of the content
+    std::uint64_t hash = 0;       ///< of the content
+    std::uint64_t step_hash = 0;  ///< of what a step reads: no names, topics and sensors; computed by seal()
+    TypeId
+        like;  ///< the first in Model::types with this step_hash, for the type as a whole; computed by seal()
 
     /// Velocities of the base: 6 if it is free, else 0.
     int base_nv() const { return free_base ? 6 : 0; }
@@ -312,6 +317,10 @@ struct RobotType {
     std::optional<std::size_t> find_sensor(const std::string& wanted) const;
     /// The command with this name: index into `channels`; nullopt: there is none.
     std::optional<std::size_t> find_channel(const std::string& wanted) const;
+    /// The command that a person calls so: its name, or the last parts of its name if no other command of the
+    /// type ends in them ("cmd_vel" for "robot_1/cmd_vel"). Index into `channels`; nullopt: there is none, or
+    /// several.
+    std::optional<std::size_t> find_command(const std::string& wanted) const;
 };
 
 /// Something with a state of its own. A static model that carries sensors or on-board controllers is one too,
@@ -380,6 +389,8 @@ struct Model {
 
     /// The type of a robot of this Model.
     const RobotType& type_of(RobotId robot) const { return types[robots[robot.index()].type.index()]; }
+    /// The type that the robot is of, in Model::types: equal for robots that a step treats alike.
+    TypeId like(RobotId robot) const { return type_of(robot).like; }
     /// The robot with this name; nullopt: there is none.
     std::optional<RobotId> find_robot(const std::string& wanted) const;
 };

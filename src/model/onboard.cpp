@@ -153,9 +153,14 @@ bool feels_wind(const OnboardParameters& p) {
            std::holds_alternative<MotorModelSpec>(p) || std::holds_alternative<LighterThanAirSpec>(p);
 }
 
-/// Adds parameters to a Model hash, by name and value.
+/// Adds parameters to a hash, by name and value. Of a step: without names and topics.
 struct ParameterHash {
     Hash& hash;
+    bool of_step = false;
+
+    template <class Value>
+    static constexpr bool kIsText =
+        std::is_same_v<Value, std::string> || std::is_base_of_v<std::vector<std::string>, Value>;
 
     void add(double value) const { hash.add(value); }
     void add(const std::string& value) const { hash.add(std::string_view(value)); }
@@ -167,6 +172,7 @@ struct ParameterHash {
     template <class Value>
     void operator()(const Parameter& parameter, const Value& value) const {
         hash.add(std::string_view(parameter.name));
+        if (of_step && kIsText<Value> && !parameter.choice) return;
         if constexpr (std::is_same_v<Value, int> || std::is_same_v<Value, bool>) {
             hash.add(static_cast<std::uint64_t>(static_cast<std::int64_t>(value)));
         } else if constexpr (requires { requires ParameterRecord<typename Value::value_type>; }) {
@@ -261,6 +267,19 @@ void add_to_hash(Hash& hash, const OnboardInfo& onboard) {
     hash.add(static_cast<std::uint64_t>(onboard.spec.kind().number));
     hash.add(static_cast<std::uint64_t>(onboard.base.value));
     visit_parameters(onboard.spec.parameters, ParameterHash{hash});
+}
+
+void add_to_step_hash(Hash& hash, const OnboardInfo& onboard) {
+    const auto add = [&](const auto&... numbers) {
+        (hash.add(static_cast<std::uint64_t>(static_cast<std::int64_t>(numbers))), ...);
+    };
+    add(onboard.spec.kind().number, onboard.base.value, onboard.memory_index);
+    for (const AxisRef& axis : onboard.axes) add(axis.joint.value, axis.motor_index);
+    for (const LinkId link : onboard.links) add(link.value);
+    for (const int channel : onboard.channels) add(channel);
+    for (const int command : onboard.commands) add(command);
+    hash.add(std::span<const double>(onboard.memory));
+    visit_parameters(onboard.spec.parameters, ParameterHash{hash, true});
 }
 
 }  // namespace roboss

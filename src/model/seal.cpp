@@ -1,6 +1,8 @@
 // Everything that every other number counts into: the hashes, and the tree over the scenery.
 #include "model/seal.h"
 
+#include <map>
+
 #include "core/hash.h"
 #include "model/accuracy.h"
 #include "model/compile_type.h"
@@ -70,6 +72,16 @@ std::uint64_t model_hash(const Model& model) {
     return hash.value();
 }
 
+/// RobotType::step_hash and like, of all types.
+void find_alike(Model& model) {
+    std::map<std::uint64_t, TypeId> first;
+    for (std::size_t i = 0; i < model.types.size(); ++i) {
+        RobotType& type = model.types[i];
+        type.step_hash = step_hash(type);
+        type.like = first.try_emplace(type.step_hash, TypeId(i)).first->second;
+    }
+}
+
 }  // namespace
 
 void seal(Model& model) {
@@ -84,6 +96,7 @@ void seal(Model& model) {
         type.reach_sphere = reach_sphere_of(type);
         type.hash = type_hash(type);
     }
+    find_alike(model);
     build_bvh(model);
     model.hash = model_hash(model);
 }

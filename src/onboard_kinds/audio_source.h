@@ -33,7 +33,8 @@ struct AudioSource {
     static void parameters(Visitor&& visit, Self& s) {
         visit({"id", "id"}, s.id);
         visit({"pose", "pose", "m"}, s.X_RS);
-        visit({"attenuation_function", "attenuation_function"}, s.attenuation_function);
+        visit({.name = "attenuation_function", .element = "attenuation_function", .choice = true},
+              s.attenuation_function);
         visit({"attenuation_shape", "attenuation_shape"}, s.attenuation_shape);
         visit({"inner_radius", "inner_radius", "m"}, s.inner_radius);
         visit({"falloff_distance", "falloff_distance", "m"}, s.falloff_distance);

@@ -32,7 +32,7 @@ struct GripperSpec {
     static void parameters(Visitor&& visit, Self& s) {
         visit({"link", "link"}, s.link);
         visit({"name", "name"}, s.name);
-        visit({"type", "type"}, s.type);
+        visit({.name = "type", .element = "type", .choice = true}, s.type);
         visit({"pose", "pose"}, s.X_LC);
         visit({"reach", "reach", "m"}, s.reach);
         visit({"max_force", "max_force", "N", true}, s.max_force);

@@ -50,8 +50,8 @@ struct MotorModelSpec {
         visit({"topic", "commandSubTopic"}, s.topic);
         visit({"motor_number", "motorNumber"}, s.motor_number);
         visit({"actuator", "actuator_number"}, s.actuator);
-        visit({"direction", "turningDirection"}, s.direction);
-        visit({"motor_type", "motorType"}, s.motor_type);
+        visit({.name = "direction", .element = "turningDirection", .choice = true}, s.direction);
+        visit({.name = "motor_type", .element = "motorType", .choice = true}, s.motor_type);
         visit({"max_velocity", "maxRotVelocity", "rad/s"}, s.max_velocity);
         visit({"motor_constant", "motorConstant", "N s^2/rad^2"}, s.motor_constant);
         visit({"moment_constant", "momentConstant", "m"}, s.moment_constant);

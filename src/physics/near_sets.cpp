@@ -68,7 +68,7 @@ bool NearSets::sharpen_bounds(const Robots& r, const LaneSteppers& lanes) {
     queue_.start(r.model.types.size());
     for (std::uint32_t i = 0; i < r.ids.size(); ++i) {
         if (!is_near_[i] || r.states[i]->rest.asleep) continue;
-        const std::size_t type = r.model.robots[r.ids[i].index()].type.index();
+        const std::size_t type = r.model.like(r.ids[i]).index();
         if (fits_lanes(r.model.types[type], *r.states[i])) queue_.add(type, i, lanes.width(), place);
     }
     queue_.finish(place);

@@ -81,7 +81,7 @@ void RobotGroup::for_each_contact_island(StepIsland&& step, StageClock& clock) {
             if (team().size() == 1) return step_one(members);
             return s_.waiting.push_back(members);
         }
-        const std::size_t type = model.robots[robots_[members[0]].id.index()].type.index();
+        const std::size_t type = model.like(robots_[members[0]].id).index();
         s_.queue.add(type, members[0], s_.lanes.width(), step_lanes);
     });
     s_.queue.finish(step_lanes);

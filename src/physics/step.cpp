@@ -240,7 +240,7 @@ void for_each_lone(const StepCall& call, Impl& s, const InLanes& in_lanes, const
     s.queue.start(model.types.size());
     for (std::uint32_t i = 0; i < call.robots.size(); ++i) {
         if (s.sets.is_near(i)) continue;
-        const std::size_t type = model.robots[call.robots[i].index()].type.index();
+        const std::size_t type = model.like(call.robots[i]).index();
         if (suits_lanes(s.group, model, model.types[type], *call.states[i]))
             s.queue.add(type, i, s.group.lanes.width(), in_lanes);
         else

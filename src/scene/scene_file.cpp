@@ -218,6 +218,7 @@ Json json_of(const SceneType& scene_type, const Scene& scene, const Model& model
     for (const Joint& joint : type.joints) joints.push_back(json_of(type, joint));
     for (const SensorInfo& sensor : type.sensors) sensors.push_back(json_of(sensor));
     Json o{{"name", type.name},
+           {"like", type.like.value},
            {"free_base", type.free_base},
            {"mass", tidy(type.mass)},
            {"reach", bound_of(type.reach)},

@@ -47,10 +47,11 @@ const PATH: ChannelInfo = {
     ],
 };
 
-function typeOf(name: string, shape: Visual, fixed: boolean, channels: ChannelInfo[]): TypeInfo {
+function typeOf(like: number, name: string, shape: Visual, fixed: boolean, channels: ChannelInfo[]): TypeInfo {
     const frame: PoseArray = [0, 0, 0, 1, 0, 0, 0];
     return {
         name,
+        like,
         free_base: !fixed,
         mass: 4,
         reach: Math.hypot(...(shape.size ?? [shape.radius ?? 1, shape.length ?? 1])),
@@ -85,7 +86,7 @@ export function addActing(scene: SceneInfo): Acting {
                 size.length === 2
                     ? { name, shape: "cylinder", radius: size[0], length: size[1], frame, rgb }
                     : { name, shape: "box", size, frame, rgb };
-        const type = typeOf(name, shape, fixed, channels),
+        const type = typeOf(scene.types.length, name, shape, fixed, channels),
             edges: [number, number, number] =
                 size.length === 2 ? [2 * size[0], 2 * size[0], size[1]] : [size[0], size[1], size[2]];
         scene.robots.push({ name, type: scene.types.push(type) - 1 });

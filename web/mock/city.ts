@@ -83,6 +83,7 @@ function carType(name: string, rgb: [number, number, number]): TypeInfo {
     });
     return {
         name,
+        like: 0,
         free_base: true,
         mass: 6.2,
         reach: 0.26,
@@ -146,6 +147,7 @@ function craneType(): TypeInfo {
     };
     return {
         name: "crane",
+        like: PAINT.length,
         free_base: false,
         mass: 120,
         reach: 5,

@@ -12,15 +12,16 @@ const shape = (name: string): Visual => ({ name, shape: "box", frame: [0, 0, 0, 
 
 function scene(robots: number): SceneInfo {
     const link = (name: string) => ({ name, body: 0, frame: shape("").frame, visuals: [], collisions: [] });
-    const type = (name: string) => ({
+    const type = (name: string, like: number) => ({
         name,
+        like,
         links: [link("base"), link("arm")],
         joints: [{ name: "hinge" }],
         sensors: [],
     });
     return {
         world: "w",
-        types: [type("car"), type("tree")],
+        types: [type("car", 0), type("tree", 1)],
         robots: Array.from({ length: robots }, (_, k) => ({ name: `car_${k}`, type: k % 2 })),
         statics: ["wall::link::a", "wall::link::b", "a::post::link::c"].map(shape),
     } as unknown as SceneInfo;
@@ -64,6 +65,27 @@ test("a type that is called after a robot is headed by what the names of its own
     assert.deepEqual(
         headings.map(({ text }) => text),
         ["blue", "yellow"],
+    );
+});
+
+test("robots that move alike are one type, whatever their parts, topics and colours are called", () => {
+    const swarm = scene(0),
+        drone = swarm.types[0];
+    swarm.types = [1, 2, 3].map((k) => ({
+        ...drone,
+        name: `X${k}`,
+        joints: [{ ...drone.joints[0], name: `X${k}_hinge` }],
+    }));
+    swarm.types.push({ ...drone, name: "X4", like: 7 }, { ...drone, name: "rover" });
+    swarm.robots = [0, 1, 2, 3, 3, 4, 4].map((type, k) => ({ name: type < 4 ? `X${k + 1}` : `rover_${k}`, type }));
+    const headings = treeRows(swarm, "", none, none).filter((row) => row.kind === "type");
+    assert.deepEqual(
+        headings.map(({ text, count }) => [text, count]),
+        [
+            ["X", 3],
+            ["X", 2],
+            ["rover", 2],
+        ],
     );
 });
 

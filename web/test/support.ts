@@ -19,6 +19,7 @@ export function body(joint: keyof typeof MOTIONS, parent: number, q: number, mor
 export function typeOf(bodies: BodyInfo[], ranges: number[], more: Partial<TypeInfo> = {}): TypeInfo {
     return {
         name: "type",
+        like: 0,
         free_base: true,
         mass: 1,
         reach: 1,

@@ -10,6 +10,7 @@
 #include <stdexcept>
 
 #include "model/addressee.h"
+#include "model/robot_names.h"
 #include "model/topics.h"
 
 namespace roboss {
@@ -210,17 +211,32 @@ std::vector<double> command_values(const json& o, const Channel& channel, const 
 Action parse_command(const json& o, const RobotType& type, const std::string& robot) {
     if (!o.is_object()) throw LineFault("command is not a JSON object", "write {\"name\": ..., ...}");
     const std::string name = text(o, "name");
-    const auto channel = type.find_channel(name);
+    const auto channel = type.find_command(name);
     if (!channel) throw LineFault("robot '" + robot + "' has no command '" + name + "'", names_of(type));
     return Command{static_cast<std::uint32_t>(*channel), command_values(o, type.channels[*channel].channel)};
 }
 
-RobotId other_robot(const json& o, const Model& model) {
-    const std::string name = text(o, "robot");
-    const auto other = model.find_robot(name);
-    if (!other)
-        throw LineFault("the world has no robot '" + name + "'", "`roboss check WORLD` lists the robots");
-    return *other;
+/// Those with the name, or with names that fit it as a pattern; at least one, by RobotId.
+std::vector<RobotId> robots_of(const json& o, const char* key, const Model& model) {
+    const std::string name = text(o, key);
+    std::vector<RobotId> robots = find_robots(model, name);
+    if (robots.empty()) {
+        const Error none = no_such_robot(model, name);
+        throw LineFault(none.message, none.remedy);
+    }
+    return robots;
+}
+
+/// The one robot that the action of an order names.
+RobotId other_robot(const json& o, const char* key, const Model& model) {
+    const std::vector<RobotId> robots = robots_of(o, key, model);
+    if (robots.size() > 1)
+        throw LineFault("'" + text(o, key) + "' fits " + std::to_string(robots.size()) +
+                            " robots, here one is named (they begin with '" +
+                            model.robots[robots[0].index()].name + "' and '" +
+                            model.robots[robots[1].index()].name + "')",
+                        "name one of them");
+    return robots.front();
 }
 
 /// The named link, or the first one.
@@ -236,9 +252,10 @@ LinkId link_of(const json& o, const char* key, const RobotType& type, const std:
 Action parse_attach(const json& o, const Model& model, const RobotType& type, const std::string& robot) {
     only_keys(o, "attach", {"link", "robot", "robot_link", "reach", "max_force", "max_torque"});
     Attach attach;
-    attach.other = other_robot(o, model);
+    attach.other = other_robot(o, "robot", model);
     attach.link = link_of(o, "link", type, robot);
-    attach.other_link = link_of(o, "robot_link", model.type_of(attach.other), text(o, "robot"));
+    attach.other_link =
+        link_of(o, "robot_link", model.type_of(attach.other), model.robots[attach.other.index()].name);
     if (o.contains("reach")) attach.reach = number(o, "reach");
     if (o.contains("max_force")) attach.max_force = number(o, "max_force");
     if (o.contains("max_torque")) attach.max_torque = number(o, "max_torque");
@@ -247,7 +264,7 @@ Action parse_attach(const json& o, const Model& model, const RobotType& type, co
 
 Action parse_detach(const json& o, const Model& model) {
     only_keys(o, "detach", {"robot"});
-    return Detach{o.contains("robot") ? other_robot(o, model) : RobotId()};
+    return Detach{o.contains("robot") ? other_robot(o, "robot", model) : RobotId()};
 }
 
 std::vector<std::uint8_t> bytes_of(const std::string& digits) {
@@ -286,10 +303,11 @@ Action parse_transmit(const json& o, const Model& model, RobotId robot) {
     Transmit message{number.value(), {}, {}};
     if (o.contains("to")) {
         const auto to = find_addressee(model, text(o, "to"));
-        if (!to)
-            throw LineFault("no robot of the world has the name or the address '" + text(o, "to") + "'",
-                            "leave 'to' out for all who hear it");
-        message.to = *to;
+        if (!to && find_robots(model, text(o, "to")).empty())
+            throw LineFault(
+                "no robot of the world has the name or the address '" + text(o, "to") + "'",
+                no_such_robot(model, text(o, "to")).remedy + "; leave 'to' out for all who hear it");
+        message.to = to ? *to : other_robot(o, "to", model);
     }
     if (o.contains("text") == o.contains("hex"))
         throw LineFault("the message has both or none of 'text' and 'hex'", "give one of them");
@@ -339,44 +357,49 @@ std::vector<Order> parse_publish(const json& o, const Model& model) {
     return orders;
 }
 
-Order parse_order(const json& o, const Model& model) {
+/// The order's action, for one of its robots.
+Action parse_action(const json& o, const Model& model, RobotId id) {
+    const RobotType& type = model.type_of(id);
+    const std::string& robot = model.robots[id.index()].name;
+    if (o.contains("set_pose")) return parse_pose(o["set_pose"]);
+    if (o.contains("set_velocity")) return parse_velocity(o["set_velocity"]);
+    if (o.contains("wrench")) return parse_wrench(o["wrench"], model, type, robot);
+    if (o.contains("pull")) return parse_pull(o["pull"], model, type, robot);
+    if (o.contains("joint")) return parse_joint(o["joint"], type, robot);
+    if (o.contains("joint_state")) return parse_joint_state(o["joint_state"], type, robot);
+    if (o.contains("command")) return parse_command(o["command"], type, robot);
+    if (o.contains("attach")) return parse_attach(o["attach"], model, type, robot);
+    if (o.contains("detach")) return parse_detach(o["detach"], model);
+    return parse_transmit(o["transmit"], model, id);
+}
+
+/// One order for each robot that the line names.
+std::vector<Order> parse_order(const json& o, const Model& model) {
     only_keys(o, "an order",
               {"t", "robot", "set_pose", "set_velocity", "wrench", "joint", "joint_state", "command",
                "attach", "detach", "pull", "transmit"});
     const Tick tick = tick_of(o, model);
-    const std::string robot = text(o, "robot");
-    const auto id = model.find_robot(robot);
-    if (!id)
-        throw LineFault("the world has no robot '" + robot + "'", "`roboss check WORLD` lists the robots");
-    const RobotType& type = model.type_of(*id);
+    const std::vector<RobotId> robots = robots_of(o, "robot", model);
     const int actions = static_cast<int>(o.size()) - 2;
     if (actions != 1)
         throw LineFault("the order has " + std::to_string(actions) + " actions",
                         "name one of set_pose, set_velocity, wrench, pull, joint, joint_state, command, "
                         "attach, detach, transmit, or publish without a robot");
-    Order order;
-    order.apply_at = tick;
-    order.robot = *id;
-    if (o.contains("set_pose")) order.action = parse_pose(o["set_pose"]);
-    if (o.contains("set_velocity")) order.action = parse_velocity(o["set_velocity"]);
-    if (o.contains("wrench")) order.action = parse_wrench(o["wrench"], model, type, robot);
-    if (o.contains("pull")) order.action = parse_pull(o["pull"], model, type, robot);
-    if (o.contains("joint")) order.action = parse_joint(o["joint"], type, robot);
-    if (o.contains("joint_state")) order.action = parse_joint_state(o["joint_state"], type, robot);
-    if (o.contains("command")) order.action = parse_command(o["command"], type, robot);
-    if (o.contains("attach")) order.action = parse_attach(o["attach"], model, type, robot);
-    if (o.contains("detach")) order.action = parse_detach(o["detach"], model);
-    if (o.contains("transmit")) order.action = parse_transmit(o["transmit"], model, *id);
-    return order;
+    std::vector<Order> orders;
+    for (const RobotId robot : robots) {
+        Order order;
+        order.apply_at = tick;
+        order.robot = robot;
+        order.action = parse_action(o, model, robot);
+        orders.push_back(std::move(order));
+    }
+    return orders;
 }
 
 std::vector<Order> parse_line(const std::string& line, const Model& model) {
     const json o = parse_json(line);
-    std::vector<Order> orders;
-    if (o.is_object() && o.contains("publish"))
-        orders = parse_publish(o, model);
-    else
-        orders.push_back(parse_order(o, model));
+    std::vector<Order> orders =
+        o.is_object() && o.contains("publish") ? parse_publish(o, model) : parse_order(o, model);
     for (const Order& order : orders)
         if (const Result<> checked = check_order(model, order); !checked)
             throw LineFault(checked.error().message, checked.error().remedy);

@@ -236,6 +236,74 @@ INSTANTIATE_TEST_SUITE_P(
         BadLine{R"({"t":0,"robot":"cart","transmit":{"radio":"radio","text":"a","to":"cart"}})", "'cart'"},
         BadLine{R"({"t":0,"robot":"cart","set_velocity":{"linear":[1e999,0,0]}})", ""}));
 
+/// Robots "X2", "Y1", "X10", "X1" with a velocity control each, whose topics and names of joints are their
+/// own.
+std::shared_ptr<const Model> swarm_model() {
+    World world;
+    for (const char* name : {"X2", "Y1", "X10", "X1"}) {
+        ModelSpec robot;
+        LinkSpec base;
+        base.name = robot.canonical_link = "base";
+        robot.links = {base};
+        VelocityControlSpec control;
+        control.topic = std::string("/") + name + "/cmd_vel";
+        robot.onboard.push_back({"go", control, {}});
+        world.prototypes.push_back(robot);
+        world.instances.push_back({name, world.prototypes.size() - 1, {}, {}});
+    }
+    world.dt_s = 0.002;
+    Diagnostics diagnostics;
+    return compile(world, {}, diagnostics);
+}
+
+TEST(OrdersFile, APatternOrdersAllRobotsThatItFitsByTheirOrderInTheWorld) {
+    const auto model = swarm_model();
+    Diagnostics d;
+    const auto orders = parse_orders(R"({"t":1,"robot":"X*","command":{"name":"cmd_vel","linear_x":2}})"
+                                     "\n"
+                                     R"({"t":1,"robot":"?1","set_velocity":{"linear":[1,0,0]}})",
+                                     "f.jsonl", *model, d);
+    ASSERT_TRUE(d.items().empty()) << to_text(d.items()[0]);
+    ASSERT_EQ(orders.size(), 5u);
+    const std::uint32_t robots[] = {0, 2, 3, 1, 3};
+    for (std::size_t i = 0; i < orders.size(); ++i) {
+        EXPECT_EQ(orders[i].robot.value, robots[i]);
+        EXPECT_EQ(orders[i].apply_at, 500);
+        for (std::size_t k = 0; k < i; ++k) EXPECT_NE(orders[i].sequence, orders[k].sequence);
+    }
+    EXPECT_EQ(std::get<Command>(orders[2].action).values[0], 2.0);
+}
+
+TEST(OrdersFile, APatternThatFitsNobodyIsAnErrorThatNamesRobots) {
+    Diagnostics d;
+    EXPECT_TRUE(
+        parse_orders(R"({"t":1,"robot":"Z*","set_velocity":{}})", "f.jsonl", *swarm_model(), d).empty());
+    ASSERT_EQ(d.items().size(), 1u);
+    EXPECT_NE(d.items()[0].message.find("'Z*'"), std::string::npos) << d.items()[0].message;
+    EXPECT_NE(d.items()[0].remedy.find("'X2', 'Y1', 'X10' and 1 more"), std::string::npos)
+        << d.items()[0].remedy;
+}
+
+TEST(OrdersFile, APatternWhereOneRobotIsNamedIsAnErrorUnlessItFitsOne) {
+    Diagnostics d;
+    const auto fine =
+        parse_orders(R"({"t":1,"robot":"X1","attach":{"robot":"Y*"}})", "f.jsonl", *swarm_model(), d);
+    ASSERT_EQ(fine.size(), 1u);
+    EXPECT_EQ(std::get<Attach>(fine[0].action).other.value, 1u);
+    EXPECT_TRUE(parse_orders(R"({"t":1,"robot":"Y1","attach":{"robot":"X*"}})", "f.jsonl", *swarm_model(), d)
+                    .empty());
+    ASSERT_EQ(d.items().size(), 1u);
+    EXPECT_NE(d.items()[0].message.find("fits 3 robots"), std::string::npos) << d.items()[0].message;
+}
+
+TEST(OrdersFile, OneRobotOfAPatternThatRefusesRefusesTheLine) {
+    Diagnostics d;
+    EXPECT_TRUE(
+        parse_orders(R"({"t":1,"robot":"*","attach":{"robot":"Y1"}})", "f.jsonl", *swarm_model(), d).empty())
+        << "Y1 cannot hold itself";
+    EXPECT_EQ(d.items().size(), 1u);
+}
+
 TEST(OrdersFile, AFileThatIsNotThereIsAnError) {
     Diagnostics d;
     EXPECT_TRUE(load_orders("no/such/file.jsonl", *cart_model(), d).empty());

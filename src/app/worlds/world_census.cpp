@@ -58,7 +58,7 @@ void count_models(const World& world, const std::vector<std::size_t>& times, Wor
 
 void count_robots_of(const Model& model, WorldCensus& census) {
     std::vector<std::size_t> times(model.types.size(), 0);
-    for (const Robot& robot : model.robots) ++times[robot.type.index()];
+    for (std::size_t r = 0; r < model.robots.size(); ++r) ++times[model.like(RobotId(r)).index()];
     for (std::size_t t = 0; t < times.size(); ++t) {
         const RobotType& type = model.types[t];
         if (times[t] == 0 || board_of(type) != nullptr) continue;

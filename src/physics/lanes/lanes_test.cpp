@@ -221,6 +221,44 @@ TEST(Lanes, BentArmsInReachOfEachOtherMeetNobody) {
     }
 }
 
+/// Each with names, topics and sensors of its own.
+World differently_named_cars(int count) {
+    World world = scattered(car(), count, 0);
+    for (int i = 0; i < count; ++i) {
+        const std::string own = "car_" + std::to_string(i) + "_";
+        ModelSpec spec = car();
+        spec.name = own;
+        for (LinkSpec& link : spec.links) link.name = own + link.name;
+        for (JointSpec& joint : spec.joints)
+            joint.name = own + joint.name, joint.parent = own + joint.parent, joint.child = own + joint.child;
+        spec.canonical_link = spec.links[0].name;
+        SensorSpec sensor;
+        sensor.name = own + "scan", sensor.parameters = LaserSpec{};
+        spec.links[0].sensors.push_back(sensor);
+        world.instances[static_cast<std::size_t>(i) + 1].prototype = world.prototypes.size();
+        world.prototypes.push_back(spec);
+    }
+    return world;
+}
+
+TEST(Lanes, RobotsOfOneTypeShareThemWhateverTheyAreCalled) {
+    const auto drive = [](Simulation& sim) {
+        for (std::size_t r = 0; sim.tick == 0 && r < sim.states.size(); ++r)
+            for (std::size_t wheel = 0; wheel < 4; ++wheel)
+                sim.set_motor(r, wheel, MotorMode::kVelocity, static_cast<double>(r + wheel));
+    };
+    const World named = differently_named_cars(9);
+    Simulation own_names(named), one_name(scattered(car(), 9, 0));
+    ASSERT_EQ(own_names.model->types.size(), 9u);
+    for (const RobotId robot : own_names.ids) EXPECT_EQ(own_names.model->like(robot).index(), 0u);
+    compare(named, drive, 60);
+    for (int i = 0; i < 60; ++i) {
+        drive(own_names), drive(one_name);
+        own_names.step(), one_name.step();
+        expect_same_states(own_names, one_name, "own names");
+    }
+}
+
 /// They are of use at all: most of the cars' steps are taken in lanes.
 TEST(Lanes, DrivingCarsStayInTheirLanes) {
     const auto expect_most = [](Precision precision, std::span<const std::size_t> widths) {

@@ -46,25 +46,16 @@ function lightsOf(scene: SceneInfo): string[] {
     return (scene.look?.lights ?? []).map(({ name }) => name);
 }
 
-const signatures = new WeakMap<TypeInfo, string>();
-
-/** What a type is, but its name. */
-function signature(type: TypeInfo): string {
-    const known = signatures.get(type) ?? JSON.stringify({ ...type, name: "" });
-    signatures.set(type, known);
-    return known;
-}
-
 /** "car_12" and "car" are "car". */
 function stemOf(name: string): string {
     return name.replace(/[_-]?\d+$/, "") || name;
 }
 
-/** For each type the first one that is the same and has the same stem: what is copied or added has a type of its own. */
+/** For each type the first one that moves alike and has the same stem. */
 function alike(types: readonly TypeInfo[]): number[] {
     const known = new Map<string, number>();
     return types.map((type, k) => {
-        const key = `${stemOf(type.name)} ${signature(type)}`,
+        const key = `${type.like} ${stemOf(type.name)}`,
             first = known.get(key) ?? k;
         known.set(key, first);
         return first;

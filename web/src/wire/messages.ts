@@ -77,6 +77,8 @@ export interface SensorInfo {
 
 export interface TypeInfo {
     name: string;
+    /** Equal for types whose robots a step treats alike: they differ in names, topics, sensors and looks only. */
+    like: number;
     free_base: boolean;
     /** Its links are scenery: it has only sensors and controllers. */
     static?: boolean;
