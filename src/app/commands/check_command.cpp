@@ -72,9 +72,12 @@ std::string values_of(const Channel& command) {
 
 void print_text(const std::vector<TypeCommands>& types) {
     for (const TypeCommands& type : types) {
-        fmt::print("{:15}{}{}\n", type.is_board ? "messages of" : "commands of",
+        if (type.is_repeated) continue;
+        const std::size_t others = type.robots - 1 + type.alike;
+        fmt::print("{:15}{}{}{}\n", type.is_board ? "messages of" : "commands of",
                    type.is_board ? "the world" : type.first,
-                   type.robots > 1 ? fmt::format(" and {} like it", type.robots - 1) : "");
+                   others > 0 ? fmt::format(" and {} like it", others) : "",
+                   type.alike > 0 ? ", with names of their own (--names)" : "");
         for (const Channel& command : type.commands)
             fmt::print("    {}: {} [{}]\n", command.name, values_of(command), command.topic);
     }

@@ -31,7 +31,7 @@ const char* const kRunOptionsFooter = R"(Examples:
 
 An orders file has one JSON object per line:
   {"t":0.5,"robot":"car_7","joint":{"name":"wheel_0","velocity":10,"max_effort":0.4}}
-  {"t":1.0,"robot":"car_7","set_pose":{"position":[0,0,1],"orientation":[1,0,0,0]}}
+  {"t":1.0,"robot":"car_7","set_pose":{"position":[0,0,1],"quat_xyzw":[0,0,0,1]}}
   {"t":1.0,"robot":"car_7","set_velocity":{"linear":[1,0,0],"angular":[0,0,0]}}
   {"t":2.0,"robot":"car_7","wrench":{"link":"chassis","force":[0,0,50],"torque":[0,0,0],"duration":0.1}}
   {"t":2.0,"robot":"car_7","pull":{"link":"chassis","point":[0,0,0],"target":[0,0,1],"max_force":500,"duration":3}}

@@ -70,20 +70,30 @@ std::string text(const json& object, const char* key) {
     return object[key].get<std::string>();
 }
 
-Action parse_pose(const json& o) {
-    only_keys(o, "set_pose", {"position", "orientation"});
-    if (!o.contains("position")) throw LineFault("set_pose has no 'position'", "give [x, y, z] in m");
-    Pose X_WR{vector(o, "position"), {}};
-    const std::vector<double> q = numbers(o, "orientation", 4);
-    if (!q.empty()) {
-        const double size = std::sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
+/// The quaternion, under the key that names its order; `orientation` is the older name of quat_wxyz.
+Quat parse_quaternion(const json& o) {
+    Quat q;
+    int given = 0;
+    for (const char* key : {"quat_xyzw", "quat_wxyz", "orientation"}) {
+        const std::vector<double> v = numbers(o, key, 4);
+        if (v.empty()) continue;
+        const bool ends_in_w = key == std::string_view("quat_xyzw");
+        q = ends_in_w ? Quat{v[3], v[0], v[1], v[2]} : Quat{v[0], v[1], v[2], v[3]};
+        const double size = std::sqrt(q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z);
         if (!(std::fabs(size - 1.0) < 1e-3))
-            throw LineFault(
-                "'orientation' is not a unit quaternion (its norm is " + std::to_string(size) + ")",
-                "give [w, x, y, z]");
-        X_WR.q = normalized(Quat{q[0], q[1], q[2], q[3]});
+            throw LineFault("'" + std::string(key) + "' is not a unit quaternion (its norm is " +
+                                std::to_string(size) + ")",
+                            ends_in_w ? "give [x, y, z, w]" : "give [w, x, y, z]");
+        ++given;
     }
-    return SetPose{X_WR};
+    if (given > 1) throw LineFault("set_pose has several quaternions", "give quat_xyzw or quat_wxyz");
+    return given == 0 ? q : normalized(q);
+}
+
+Action parse_pose(const json& o) {
+    only_keys(o, "set_pose", {"position", "quat_xyzw", "quat_wxyz", "orientation"});
+    if (!o.contains("position")) throw LineFault("set_pose has no 'position'", "give [x, y, z] in m");
+    return SetPose{{vector(o, "position"), parse_quaternion(o)}};
 }
 
 Action parse_velocity(const json& o) {
@@ -297,7 +307,7 @@ Action parse_transmit(const json& o, const Model& model, RobotId robot) {
     const auto sensor = type.find_sensor(radio);
     if (!sensor)
         throw LineFault("robot '" + name + "' has no sensor '" + radio + "'",
-                        "`roboss check WORLD` lists its sensors");
+                        "`roboss check WORLD --names` lists its sensors");
     const Result<std::uint32_t> number = radio_number(model, robot, *sensor);
     if (!number) throw LineFault(number.error().message, number.error().remedy);
     Transmit message{number.value(), {}, {}};
@@ -418,7 +428,7 @@ struct ActionToJson {
 
     void operator()(const SetPose& a) const {
         line["set_pose"] = {{"position", list(a.X_WR.p)},
-                            {"orientation", {a.X_WR.q.w, a.X_WR.q.x, a.X_WR.q.y, a.X_WR.q.z}}};
+                            {"quat_wxyz", {a.X_WR.q.w, a.X_WR.q.x, a.X_WR.q.y, a.X_WR.q.z}}};
     }
     void operator()(const SetVelocity& a) const {
         line["set_velocity"] = {{"linear", list(a.linear)}, {"angular", list(a.angular)}};

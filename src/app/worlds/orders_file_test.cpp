@@ -57,6 +57,24 @@ TEST(OrdersFile, EveryLevelIsRead) {
     EXPECT_EQ(orders[3].sequence, 6u) << "the line number";
 }
 
+TEST(OrdersFile, AQuaternionIsReadInTheOrderThatItsKeyNames) {
+    Diagnostics d;
+    const auto orders =
+        parse_orders(R"({"t":0,"robot":"cart","set_pose":{"position":[0,0,0],"quat_xyzw":[0.6,0,0,0.8]}})"
+                     "\n"
+                     R"({"t":0,"robot":"cart","set_pose":{"position":[0,0,0],"quat_wxyz":[0.8,0.6,0,0]}})"
+                     "\n"
+                     R"({"t":0,"robot":"cart","set_pose":{"position":[0,0,0],"orientation":[0.8,0.6,0,0]}})",
+                     "f.jsonl", *cart_model(), d);
+    ASSERT_TRUE(d.items().empty());
+    ASSERT_EQ(orders.size(), 3u);
+    for (const Order& order : orders) {
+        const Quat q = std::get<SetPose>(order.action).X_WR.q;
+        EXPECT_NEAR(q.w, 0.8, 1e-15);
+        EXPECT_NEAR(q.x, 0.6, 1e-15);
+    }
+}
+
 TEST(OrdersFile, APullAndAReplacingWrenchAreReadAndWrittenAlike) {
     Diagnostics d;
     const auto model = cart_model();
@@ -225,6 +243,11 @@ INSTANTIATE_TEST_SUITE_P(
         BadLine{R"({"t":0,"robot":"cart","set_pose":{"position":[1,2]}})", "position"},
         BadLine{R"({"t":0,"robot":"cart","set_pose":{"position":[0,0,0],"orientation":[1,1,0,0]}})",
                 "orientation"},
+        BadLine{R"({"t":0,"robot":"cart","set_pose":{"position":[0,0,0],"quat_xyzw":[1,1,0,0]}})",
+                "quat_xyzw"},
+        BadLine{
+            R"({"t":0,"robot":"cart","set_pose":{"position":[0,0,0],"quat_xyzw":[0,0,0,1],"quat_wxyz":[1,0,0,0]}})",
+            "several"},
         BadLine{R"({"t":0,"robot":"cart","wrench":{"link":"bottom","force":[0,0,1]}})", "'bottom'"},
         BadLine{R"({"t":0,"robot":"cart","wrench":{"link":"top","force":[0,0,1],"duration":0}})",
                 "'duration'"},

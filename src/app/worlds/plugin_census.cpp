@@ -84,7 +84,13 @@ class PluginList {
 
 std::vector<TypeCommands> list_commands(const Model& model) {
     std::vector<TypeCommands> all(model.types.size());
+    std::vector<std::size_t> firsts(model.types.size(), model.types.size());  // in `all`, by RobotType::like
     for (const Robot& robot : model.robots) {
+        const std::size_t place = robot.type.index();
+        std::size_t& first = firsts[model.types[place].like.index()];
+        if (first == model.types.size()) first = place;
+        all[first].alike += first != place ? 1 : 0;
+        all[place].is_repeated = first != place;
         TypeCommands& type = all[robot.type.index()];
         if (type.robots++ > 0) continue;
         type.first = robot.name;

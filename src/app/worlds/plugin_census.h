@@ -10,11 +10,14 @@
 
 namespace roboss {
 
-/// The commands of a robot type, and how many robots have it.
+/// The commands of robots of one type that have the same names, and how many robots these are.
 struct TypeCommands {
     std::string first;       // name of the first of these robots
-    std::size_t robots = 0;  // of this type
-    bool is_board = false;   // the board that carries the messages of the world, no robot of the file
+    std::size_t robots = 0;  // that share these names
+    std::size_t alike =
+        0;  // others of this type, whose names differ; 0 if an entry before this one counts them
+    bool is_repeated = false;  // an entry before this one is of the same type
+    bool is_board = false;     // the board that carries the messages of the world, no robot of the file
     std::vector<Channel> commands;
 };
 
