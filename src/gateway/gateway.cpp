@@ -45,8 +45,8 @@ std::vector<std::string> Gateway::take_notices() {
     return notices;
 }
 
-void Gateway::say_farewell(const std::string& reason) {
-    parts_->server->say_farewell(reason);
+void Gateway::say_farewell(const RunOver& over) {
+    parts_->server->say_farewell(over);
 }
 
 GatewayLoad Gateway::load() const {

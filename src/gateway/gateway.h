@@ -12,6 +12,7 @@
 #include "bus/bus.h"
 #include "core/result.h"
 #include "gateway/roles.h"
+#include "wire/message.h"
 
 namespace roboss {
 
@@ -49,7 +50,7 @@ class Gateway {
     /// Why the run is over, if a reason was sent; empty: it is not over.
     const std::string& over() const;
     /// Says to all pages why the run is over (or the viewer ends), and closes them; takes a moment.
-    void say_farewell(const std::string& reason);
+    void say_farewell(const RunOver& over);
     GatewayLoad load() const;
 
   private:

@@ -45,9 +45,16 @@ Json json_of(const MessageRate& rate) {
 }
 
 Json json_of(const MemberStatus& member) {
-    return {{"id", member.id},           {"name", member.name},     {"state", name_of(member.state)},
-            {"threads", member.threads}, {"robots", member.robots}, {"islands", member.islands},
-            {"step_us", member.step_us}, {"load", member.load},     {"messages", json_of(member.messages)}};
+    return {{"id", member.id},
+            {"name", member.name},
+            {"state", name_of(member.state)},
+            {"threads", member.threads},
+            {"robots", member.robots},
+            {"islands", member.islands},
+            {"step_us", member.step_us},
+            {"load", member.load},
+            {"messages", json_of(member.messages)},
+            {"own_process", member.own_process}};
 }
 
 void append(Json& o, const RunStatus& s) {
@@ -153,6 +160,10 @@ std::string status_line(const RunStatus& status, double real_time_factor) {
     append(o, status);
     o["rtf"] = std::round(1e3 * real_time_factor) / 1e3;
     return text_of(o, -1);
+}
+
+std::string over_line(const RunOver& over) {
+    return text_of({{"type", "over"}, {"reason", over.reason}, {"failed", over.failed}}, -1);
 }
 
 std::string extras_line(const ViewExtras& extras, Tick tick, std::uint32_t scene) {

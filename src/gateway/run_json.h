@@ -5,6 +5,7 @@
 #include <string>
 
 #include "wire/control.h"
+#include "wire/message.h"
 #include "wire/view_extras.h"
 
 namespace roboss {
@@ -14,6 +15,8 @@ std::string status_json(const RunStatus& status);
 /// The line that pages get twice a second (docs/viewer-protocol.md). real_time_factor: simulated seconds per
 /// real second lately.
 std::string status_line(const RunStatus& status, double real_time_factor);
+/// The run has ended, or failed.
+std::string over_line(const RunOver& over);
 /// The line with surfaces in motion and bonds (docs/viewer-protocol.md).
 std::string extras_line(const ViewExtras& extras, Tick tick, std::uint32_t scene);
 /// By robot: its Simulator and its island.

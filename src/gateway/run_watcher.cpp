@@ -203,7 +203,7 @@ void RunWatcher::handle(Bus&, Envelope& envelope) {
     } else if (const auto* over = std::get_if<RunOver>(&envelope.message)) {
         over_ = over->reason;
         Line line;
-        line.make = [reason = over->reason] { return dumped({{"type", "over"}, {"reason", reason}}); };
+        line.make = [over = *over] { return over_line(over); };
         exchange_->send(std::move(line));
     }
 }

@@ -48,8 +48,8 @@ Result<std::unique_ptr<Server>> Server::open(const GatewayOptions& options,
 
 Server::~Server() = default;
 
-void Server::say_farewell(const std::string& reason) {
-    core_->say_farewell(reason);
+void Server::say_farewell(const RunOver& over) {
+    core_->say_farewell(over);
 }
 
 std::vector<std::string> Server::take_notices() {

@@ -24,7 +24,7 @@ class Server {
     const std::string& url() const { return url_; }
     const std::vector<std::string>& other_urls() const { return other_urls_; }
     std::vector<std::string> take_notices();
-    void say_farewell(const std::string& reason);
+    void say_farewell(const RunOver& over);
     GatewayLoad load() const;
 
   private:

@@ -104,11 +104,9 @@ void ServerCore::serve() {
     }
 }
 
-void ServerCore::say_farewell(const std::string& reason) {
+void ServerCore::say_farewell(const RunOver& over) {
     if (!thread_.joinable()) return;
-    asio::post(io_, [this, reason] {
-        const Json line{{"type", "over"}, {"reason", reason}};
-        const std::string text = line.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+    asio::post(io_, [this, text = over_line(over)] {
         for (const auto& [number, page] : std::map(pages_)) {
             page->send(text, false);
             page->leave();

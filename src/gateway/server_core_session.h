@@ -43,7 +43,7 @@ class ServerCore {
     std::uint16_t port() const;
     void start();
     /// Says to all pages why the run is over and closes them; waits for that, but not long.
-    void say_farewell(const std::string& reason);
+    void say_farewell(const RunOver& over);
     void stop();
 
     // --- for sessions

@@ -89,7 +89,7 @@ std::vector<std::string> LocalView::take_notices() {
 }
 
 void LocalView::say_farewell(const std::string& reason) {
-    parts_->gateway->say_farewell(reason);
+    parts_->gateway->say_farewell({reason});
 }
 
 }  // namespace roboss

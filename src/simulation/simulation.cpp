@@ -82,7 +82,7 @@ Simulation::Simulation(std::shared_ptr<const Model> model, const SimulationOptio
 void Simulation::add_simulator() {
     SimulatorOptions role;
     role.lanes = lanes_;
-    role.name = "inside";
+    role.name = "this process";
     // Not during a recovery: without the states that it restores the run cannot be saved.
     role.abandons = [this] { return is_interrupted() && controller_.phase() == Phase::kStepping; };
     simulators_.push_back(

@@ -121,7 +121,7 @@ class Simulation {
     /// What the next Simulation on the same Bus has to know.
     ControllerOptions::Before hand_over() { return controller_.hand_over(); }
     /// Tells all members that the run is over.
-    void dismiss(const std::string& reason) { controller_.dismiss(*bus_, reason); }
+    void dismiss(const RunOver& over) { controller_.dismiss(*bus_, over); }
 
     // --- how the run is distributed, for display
     /// All Simulators and Clients that the first window waits for have joined.

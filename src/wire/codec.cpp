@@ -212,7 +212,7 @@ template <class A> void field(A& a, Of<A, ClientReply>& m) { auto& [client, numb
 template <class A> void field(A& a, Of<A, RefusedOrder>& m) { auto& [sequence, reason, code] = m; fields(a, sequence, reason, code); }
 template <class A> void field(A& a, Of<A, ReplyAck>& m) { auto& [client, number, refused] = m; fields(a, client, number, refused); }
 template <class A> void field(A& a, Of<A, ClientBye>& m) { auto& [client, number, failed, reason] = m; fields(a, client, number, failed, reason); }
-template <class A> void field(A& a, Of<A, RunOver>& m) { auto& [reason] = m; fields(a, reason); }
+template <class A> void field(A& a, Of<A, RunOver>& m) { auto& [reason, failed] = m; fields(a, reason, failed); }
 template <class A> void field(A& a, Of<A, ClientUnknown>& m) { auto& [client] = m; fields(a, client); }
 template <class A> void field(A&, Of<A, GetGroups>&) { static_assert(std::is_empty_v<GetGroups>); }
 template <class A> void field(A&, Of<A, GetBounds>&) { static_assert(std::is_empty_v<GetBounds>); }
@@ -262,8 +262,8 @@ template <class A> void field(A& a, Of<A, CopyRobots>& m) { auto& [copies] = m; 
 template <class A> void field(A& a, Of<A, RestoreRobots>& m) { auto& [names] = m; fields(a, names); }
 template <class A> void field(A& a, Of<A, MessageRate>& m) { auto& [messages_in, messages_out, bytes_in, bytes_out] = m; fields(a, messages_in, messages_out, bytes_in, bytes_out); }
 template <class A> void field(A& a, Of<A, MemberStatus>& m) {
-    auto& [id, name, state, threads, robots, islands, step_us, load, messages] = m;
-    fields(a, id, name, state, threads, robots, islands, step_us, load, messages);
+    auto& [id, name, state, threads, robots, islands, step_us, load, messages, own_process] = m;
+    fields(a, id, name, state, threads, robots, islands, step_us, load, messages, own_process);
     if constexpr (A::kReading) if (state > MemberState::kLost) a.fail("the state of a member is unknown");
 }
 template <class A> void field(A& a, Of<A, RunStatus>& m) {

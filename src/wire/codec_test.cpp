@@ -83,6 +83,7 @@ std::vector<Message> one_of_each() {
             ReplyAck{ClientId(0u), 4, {{2, "no such link", "no-link"}}},
             ClientBye{ClientId(0u), 5, true, "it threw"},
             RunOver{"the run has ended"},
+            RunOver{"a robot flew away", true},
             ModelRequest{Whole::kScene, 7},
             ModelPart{Whole::kModel, 1, 100, 7, {1, 2, 3}},
             ClientUnknown{ClientId(2u)},
@@ -133,7 +134,7 @@ std::vector<Message> every_control_message() {
           ControlAction(RestoreRobots{{"a", "b"}}),
           ControlAction(GetProfile{})})
         all.emplace_back(ControlRequest{all.size() + 1, action});
-    const MemberStatus member{2, "host/7", MemberState::kLost, 4, 10, 5, 7.5, 0.9, {1, 2, 3, 4}};
+    const MemberStatus member{2, "host/7", MemberState::kLost, 4, 10, 5, 7.5, 0.9, {1, 2, 3, 4}, true};
     const RunStatus status{"w.sdf", 500,      1.0,   true, true,         2.0, 3,  16, 40,  2, 0.95, 3.5,
                            1,       1,        7,     2,    {5, 6, 7, 8}, 11,  12, 3,  0.5, 4, 1000, 1.5,
                            true,    {member}, {"a"}, 1};

@@ -254,6 +254,7 @@ struct MemberStatus {
     double step_us = 0;                        // stepping CPU time per tick and thread
     double load = 0;                           // the same, relative to the busiest Simulator
     MessageRate messages;                      ///< of this member
+    bool own_process = false;                  ///< the run started it as a process and can kill it
     /// Compares all members.
     friend bool operator==(const MemberStatus&, const MemberStatus&) = default;
 };

@@ -77,6 +77,7 @@ struct Expelled {  // Controller -> Simulator that is considered lost; it may se
 };
 struct RunOver {  // Controller -> everybody: the run has ended
     std::string reason;
+    bool failed = false;  ///< it could not go on; the reason says why
     friend bool operator==(const RunOver&, const RunOver&) = default;
 };
 /// Simulator -> Controller, every 50 ms, also during a long step; and Controller -> everybody, every 250 ms,

@@ -50,4 +50,13 @@ inline constexpr std::size_t kPictureSensorAt = 28;
 inline constexpr std::size_t kPictureAboutBytesAt = 32;
 inline constexpr std::size_t kPictureBytes = 36;
 
+// clang-format off
+/// What a page can draw beside robots and scenery.
+inline constexpr const char* kPageOverlays[] = {
+    "rays", "points", "tracks", "compass", "contacts", "radio", "bounds", "spheres", "islands",
+    "names", "collisions", "frames", "masses", "inertia", "axes", "labels", "wireframe",
+    "transparent"
+};
+// clang-format on
+
 }  // namespace roboss::viewer_protocol

@@ -182,7 +182,7 @@ TEST(Faults, EverybodyHearsThatTheRunIsOver) {
         simulator.advance(bus);
         client.advance(bus);
     }
-    controller.dismiss(bus, "done");
+    controller.dismiss(bus, {"done"});
     simulator.advance(bus);
     client.advance(bus);
     EXPECT_TRUE(simulator.gone());

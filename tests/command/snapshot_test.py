@@ -1,5 +1,6 @@
 """`roboss snapshot`: a picture of the world at a time, drawn by Chromium; it shows something, and what it shows depends on
 where one looks from."""
+import json
 import os
 import shutil
 import struct
@@ -38,6 +39,17 @@ class Snapshot(RobossTest):
             self.assertGreater(len(set(rows)), 60, "a picture of nothing")
             shown.append(rows)
         self.assertNotEqual(*shown)
+
+    @unittest.skipUnless(shutil.which("chromium") and PAGE.exists(), "there is no chromium, or the page is not built")
+    def test_it_takes_all_overlays_of_the_page_and_waits_for_what_they_show(self):
+        schema = Path(WORLDS).parent / "src/gateway/protocol.json"
+        overlays = json.loads(schema.read_text())["page_overlays"]
+        self.assertGreater(len(overlays), 15)
+        file = FOLDER / "overlays.png"
+        done = roboss("snapshot", WORLDS / "pile.sdf", "--at", 1, "--select", "arm", "--show", ",".join(overlays), "--width", 400,
+                      "--height", 300, "-o", file)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual(pixels(file)[:2], (400, 300))
 
     def test_without_a_browser_it_is_refused_with_a_remedy(self):
         before = dict(os.environ)

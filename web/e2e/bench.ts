@@ -195,16 +195,21 @@ export interface Watched {
     errors: string[];
 }
 
-/** Opens the page and waits until the first State is drawn. */
-export async function openPage(browser: Browser, run: Run, query = ""): Promise<Watched> {
-    const context = await browser.newContext({ viewport: { width: 1100, height: 640 }, acceptDownloads: true }),
+/** Opens the page and waits until the first State is drawn; with little effort, and without the card of first steps. */
+export async function openPage(
+    browser: Browser,
+    run: Run,
+    query = "",
+    { size = { width: 1100, height: 640 }, before = "quality=low" } = {},
+): Promise<Watched> {
+    const context = await browser.newContext({ viewport: size, acceptDownloads: true }),
         page = await context.newPage(),
         errors: string[] = [];
     page.setDefaultTimeout(WAIT_MS);
     page.on("console", (message) => message.type() === "error" && errors.push(message.text()));
     page.on("pageerror", (error) => errors.push(error.message));
     const url = new URL(run.url);
-    for (const [name, value] of new URLSearchParams(`quality=low&${query.replace(/^[?]/, "")}`))
+    for (const [name, value] of new URLSearchParams(`${before}&${query.replace(/^[?]/, "")}`))
         url.searchParams.set(name, value);
     await page.goto(url.toString());
     await page.waitForSelector("body[data-ready=true]");

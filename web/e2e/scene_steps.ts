@@ -5,6 +5,12 @@ import { paused, settled, until } from "./bench";
 
 export const names = (page: Page) =>
     page.evaluate(() => window.roboss.state.world.value?.fleet.scene.robots.map(({ name }) => name) ?? []);
+/** Names of the robots that are selected, the primary one first. */
+export const selected = (page: Page) =>
+    page.evaluate(() => {
+        const { scene, state } = window.roboss;
+        return scene.selection.robots.map((robot) => state.world.value?.fleet.name(robot)).join(" ");
+    });
 export const row = (page: Page, name: string) => page.locator(".row", { hasText: new RegExp(`^${name}$`) });
 
 /** A key of the page, not of the field that has the focus. */

@@ -3,7 +3,7 @@
 import assert from "node:assert/strict";
 import type { Page } from "playwright-core";
 import { Bench, choose, PROGRAM, until } from "./bench";
-import { names, near, pause, press, row, stand } from "./scene_steps";
+import { names, near, pause, press, row, selected, stand } from "./scene_steps";
 import { resting, visiblePoint } from "./sight";
 
 const skip = PROGRAM === "" ? "the mock changes no world" : false;
@@ -149,6 +149,7 @@ bench.test("several robots are removed at once, and undo brings them back as the
     await until("removed", async () => (await names(page)).join() === before.filter((n) => !gone.includes(n)).join());
     await press(page, "Control+z");
     await until("back", async () => (await names(page)).length === before.length);
+    await until("both are selected again", async () => (await selected(page)) === "pendulum crate_1");
     await until("drawn", async () => (await stand(page, "pendulum")).joints[0] !== 0);
     for (const [k, name] of gone.entries()) {
         const now = await stand(page, name);
@@ -179,6 +180,7 @@ bench.test("a copy has the joint positions of its original and stands beside it"
     near(copy.pose.slice(1), original.pose.slice(1), 1e-4, "the rest of its pose");
     await press(page, "Control+z");
     await until("gone", async () => !(await names(page)).includes("pendulum_1"));
+    await until("its original is selected", async () => (await selected(page)) === "pendulum");
 });
 
 bench.endsWithCleanConsole();

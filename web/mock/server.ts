@@ -103,7 +103,7 @@ class Page {
     }
 
     leave(reason: string): void {
-        this.tell({ type: "over", reason });
+        this.tell({ type: "over", reason, failed: trouble.failed });
         this.socket.close(1001);
     }
 
@@ -113,7 +113,9 @@ class Page {
     }
 
     status(): void {
-        if (!trouble.mute) this.tell({ ...run.status(), ...(trouble.empty ? { simulators: 0 } : {}) });
+        if (trouble.mute) return;
+        const members = run.members.map((member) => ({ ...member, own_process: !trouble.foreign }));
+        this.tell({ ...run.status(), members, ...(trouble.empty ? { simulators: 0 } : {}) });
     }
 
     tell(message: object): void {

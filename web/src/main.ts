@@ -10,6 +10,7 @@ import { HandMark } from "./hands/hand_mark";
 import { Actions } from "./model/actions";
 import { Address } from "./model/address";
 import { Bonding } from "./model/bonding";
+import { waitsOf } from "./model/picture_waits";
 import { Plotted } from "./model/plotted";
 import { RunLink } from "./model/run_link";
 import { applyAddress, copyViewLink, keepTheme, startTheme } from "./model/view_link";
@@ -24,6 +25,7 @@ import { legend } from "./panels/legend";
 import { firstHints } from "./panels/hints";
 import { Inspector } from "./panels/inspector";
 import { notices } from "./panels/notices";
+import { overPicture } from "./panels/over_picture";
 import { Palette } from "./panels/palette";
 import { PlotsDock } from "./panels/plots_dock";
 import { ScenePanel } from "./panels/scene_panel";
@@ -202,17 +204,14 @@ const top = topBar(state, capture, desk.element, {
     togglePanel,
 });
 document.body.prepend(top.element, top.menu);
-view.append(hand.frame, ...scene.over(view));
-view.append(
-    viewBar(state, views, director),
-    viewFrames(state, views),
-    labels.element,
-    legend(state),
-    runBanner(state, run),
-    desk.question,
-    cameras.over,
-    said.element,
-);
+const over = overPicture({
+    messages: [runBanner(state, run), desk.question],
+    bar: viewBar(state, views, director),
+    left: [...scene.bars(), legend(state)],
+});
+labels.avoid(over);
+view.append(hand.frame, scene.dialogOver(view));
+view.append(viewFrames(state, views), labels.element, over, cameras.over, said.element);
 document.body.append(
     sheets.head,
     list.element,
@@ -223,7 +222,7 @@ document.body.append(
     help.element,
     palette.element,
 );
-view.append(...[firstHints(address)].filter((hints) => hints !== null));
+firstHints(address, view, tabs.element);
 if (address.get("hide") === "panels") document.body.classList.add("bare");
 
 state.theme.follow((theme, before) => {
@@ -253,7 +252,7 @@ for (const name of ["pointerdown", "pointermove", "keydown", "resize"])
     window.addEventListener(name, () => loop.wake());
 applyAddress(address, state);
 
-// For tests and measurements; the page itself never reads it.
+// For tests, pictures and measurements; the page itself never reads it.
 const hooks = {
     state,
     views,
@@ -263,6 +262,14 @@ const hooks = {
     run,
     scene,
     far: marks.far,
+    /** What a picture of the page still misses, in words; empty: nothing. */
+    waits: () =>
+        waitsOf(state, {
+            drawn: document.body.dataset.ready === "true",
+            veiled: document.body.classList.contains("gone"),
+            arrived: views.arrived,
+            panel: address.get("panel"),
+        }),
     /** The robot that a click at this place of the window would meet; null: none. */
     robotAt: (left: number, top: number) => scene.robotAt(left, top),
 };

@@ -76,6 +76,28 @@ export function readPictureHeader(view: DataView): PictureHeader {
     };
 }
 
+/** What a page can draw beside robots and scenery. */
+export const PAGE_OVERLAYS = [
+    'rays',
+    'points',
+    'tracks',
+    'compass',
+    'contacts',
+    'radio',
+    'bounds',
+    'spheres',
+    'islands',
+    'names',
+    'collisions',
+    'frames',
+    'masses',
+    'inertia',
+    'axes',
+    'labels',
+    'wireframe',
+    'transparent',
+] as const;
+
 export type Overlay = 'contacts' | 'radio' | 'bounds' | 'groups';
 
 export type OrderAction = 'pose' | 'velocity' | 'wrench' | 'joint' | 'command' | 'attach' | 'detach';

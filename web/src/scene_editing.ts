@@ -77,14 +77,19 @@ export class SceneEditing {
         });
     }
 
-    /** Its bars and dialogs over the picture; files may be dropped there. */
-    over(view: HTMLElement): HTMLElement[] {
+    /** Its bars over the picture. */
+    bars(): HTMLElement[] {
+        const { state, selection, placing, gizmo } = this;
+        return [gizmoBar(state, selection, placing, gizmo), addingHint(state)];
+    }
+
+    /** Its dialog; files may be dropped on the picture. */
+    dialogOver(view: HTMLElement): HTMLElement {
         acceptDrops(view, this.dialog, (event) => {
             const box = this.stage.canvas.getBoundingClientRect();
             return this.pointed({ x: event.clientX - box.left, y: event.clientY - box.top });
         });
-        const { state, selection, placing, gizmo } = this;
-        return [gizmoBar(state, selection, placing, gizmo), addingHint(state), this.dialog.element];
+        return this.dialog.element;
     }
 
     actions(): Action[] {

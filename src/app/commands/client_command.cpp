@@ -96,7 +96,7 @@ class ClientProcess {
                 error_of_text("", host.failure(), "fix the control program", "client-failed"));
             return kRunFailed;
         }
-        if (!host.client().over().empty()) member_.report(host.client().over());
+        if (!host.client().over().empty()) member_.report("the run is over: " + host.client().over());
         return kSuccess;
     }
 

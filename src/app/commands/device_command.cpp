@@ -200,7 +200,7 @@ class DeviceProcess {
         const bool over = !member_client_->over().empty() || member_client_->outdated();
         if (over && !std::exchange(run_ended_, true)) {
             member_.report(member_client_->outdated() ? "the world of the run has changed: start again"
-                                                      : member_client_->over());
+                                                      : "the run is over: " + member_client_->over());
             run_->stop();
         }
         member_.bus().wait(1);

@@ -60,7 +60,7 @@ class SimulatorProcess {
                 member_.report("dismissed by the Controller");
                 return kSuccess;
             } else if (!simulator.over().empty()) {
-                member_.report(simulator.over());
+                member_.report("the run is over: " + simulator.over());
                 if (!o_.stay) return kSuccess;
             } else if (!o_.stay && !simulator.refusal().empty()) {
                 return member_.report_error({"refused by the Controller: " + simulator.refusal(),

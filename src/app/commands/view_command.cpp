@@ -36,7 +36,7 @@ int view(const ViewCommandOptions& o) {
         for (const std::string& line : gateway.value()->take_notices()) member.report(line);
         if (!member.wait()) return kBadInput;
     }
-    gateway.value()->say_farewell("'roboss view' was stopped; the run itself may continue");
+    gateway.value()->say_farewell({"'roboss view' was stopped; the run itself may continue"});
     member.bus().flush(500);
     return kSuccess;
 }

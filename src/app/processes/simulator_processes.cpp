@@ -28,6 +28,11 @@ std::vector<std::string> SimulatorProcesses::names() const {
     return names;
 }
 
+bool SimulatorProcesses::has(const std::string& name) const {
+    return std::ranges::any_of(
+        processes_, [&](const Member& member) { return name == process_name(member.process.id()); });
+}
+
 bool SimulatorProcesses::kill(const std::string& name) {
     for (Member& member : processes_) {
         if (name != process_name(member.process.id())) continue;

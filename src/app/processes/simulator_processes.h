@@ -19,6 +19,8 @@ class SimulatorProcesses {
     std::size_t count() const { return processes_.size(); }
     /// By which their Simulators will join.
     std::vector<std::string> names() const;
+    /// True if the Simulator with this name runs in one of them.
+    bool has(const std::string& name) const;
     /// Kills the process of the Simulator with this name; false: there is none.
     bool kill(const std::string& name);
 

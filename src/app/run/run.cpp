@@ -82,18 +82,24 @@ int Run::go() {
     if (!begin()) return finish(false, 0);
     const auto began = Clock::now();
     const bool fine = drive();
-    if (gateway_) gateway_->say_farewell(reason_of_end(fine));
+    if (gateway_) gateway_->say_farewell(over(fine));
     report_notices();
     progress_.clear();
     return finish(fine, std::chrono::duration<double>(Clock::now() - began).count());
 }
 
-/// For pages: why the run is over.
-std::string Run::reason_of_end(bool fine) const {
-    if (!fine) return "it failed; its log says why";
-    if (pace_.quit) return "a request ended it";
-    if (interrupted()) return "a signal ended it (Ctrl-C or kill)";
-    return fmt::format("its duration was over at {:.3f} s", simulation_->time_s());
+/// For pages and members: why the run is over.
+RunOver Run::over(bool fine) const {
+    if (!fine) return {failure_ ? failure_->text() : "its output says why", true};
+    if (pace_.quit) return {"a request ended it"};
+    if (interrupted()) return {"a signal ended it (Ctrl-C or kill)"};
+    return {fmt::format("its duration was over at {:.3f} s", simulation_->time_s())};
+}
+
+bool Run::fail(const Error& why) {
+    failure_ = why;
+    print(why);
+    return false;
 }
 
 bool Run::prepare() {
@@ -442,7 +448,7 @@ int Run::finish(bool fine, double wall_s) {
         log_->write_state(*simulation_);
         log_->end(simulation_->tick(), fine ? "done" : "failed");
     }
-    simulation_->dismiss(fine ? "the run has ended" : "the run has failed");
+    simulation_->dismiss(over(fine));
     members_->await_exit(abandoned_);
     fmt::print(writes_to_standard_output() ? stderr : stdout, "{}", to_text(s));
     if (abandoned_) return kProcessesFailed;

@@ -79,7 +79,7 @@ class Run {
 
     // run_loop.cpp: the time between
     bool drive();
-    std::string reason_of_end(bool fine) const;
+    RunOver over(bool fine) const;
     bool look(const Schedule& due);
     bool rest();
     /// At the end of the duration: whether the run stays, paused, for inspection.
@@ -133,6 +133,8 @@ class Run {
     bool advance_to(Tick target);
     void report_notices();
     void stop(const Error& why);
+    /// Prints why the run cannot continue, and keeps it for pages and members. Returns false.
+    bool fail(const Error& why);
     void show_progress();
     bool write_trace();
     bool write_contacts();
@@ -198,7 +200,8 @@ class Run {
     std::vector<Request> requests_;    // to be served
     std::uint64_t socket_askers_ = 0;  // for names of those who ask over the socket
     std::vector<std::string> notices_;
-    Tick busy_until_ = 0;  // to which requests wait: the run is being brought to its start
+    std::optional<Error> failure_;  // why the run cannot continue
+    Tick busy_until_ = 0;           // to which requests wait: the run is being brought to its start
     bool abandoned_ =
         false;  // Simulator processes of this run failed: no process is left that has the states
 };

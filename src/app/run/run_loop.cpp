@@ -51,7 +51,7 @@ bool Run::advance_to(Tick target) {
         return looked_after.ok() && !interrupted() &&
                (requests_.empty() || simulation_->tick() < busy_until_);
     });
-    if (!looked_after) return abandoned_ = true, print(looked_after.error()), false;
+    if (!looked_after) return abandoned_ = true, fail(looked_after.error());
     if (!stepped) return stop(stepped.error()), false;
     return true;
 }
@@ -61,7 +61,7 @@ void Run::stop(const Error& why) {
     report_notices();
     if (log_) log_->event(simulation_->tick(), "stopped: " + why.message);
     progress_.clear();
-    print(why);
+    fail(why);
 }
 
 /// One turn of a paused run; false if it cannot continue.
@@ -72,7 +72,7 @@ bool Run::rest() {
     show_progress();
     const Result<> looked_after = members_->look_after(*simulation_);
     rested_ += Clock::now() - began;
-    if (!looked_after) return abandoned_ = true, print(looked_after.error()), false;
+    if (!looked_after) return abandoned_ = true, fail(looked_after.error());
     return true;
 }
 
@@ -103,14 +103,17 @@ bool Run::take_picture() {
         const Result<> read = take_reading(o_.sense, {model_, simulation_->states(), simulation_->tick(),
                                                       simulation_->seed(), threads, visuals});
         progress_.clear();
-        if (!read) print(read.error());
+        if (!read) fail(read.error());
         return read.ok();
     }
     doing_ = "drawing the picture  ";
-    const Result<> taken =
-        take_snapshot(o_.snapshot, gateway_->url(), [this] { return rest() && !interrupted(); });
+    // The page asks for news of the run, too: without answers it draws a veil over the picture.
+    const Result<> taken = take_snapshot(o_.snapshot, gateway_->url(), [this] {
+        serve_requests();
+        return rest() && !interrupted() && !pace_.quit;
+    });
     progress_.clear();
-    if (!taken) return print(taken.error()), false;
+    if (!taken) return fail(taken.error());
     fmt::print(stderr, "wrote {}, {} x {} pixels\n", o_.snapshot.file, o_.snapshot.width, o_.snapshot.height);
     return true;
 }
@@ -124,7 +127,7 @@ bool Run::look(const Schedule& due) {
     if (due.hash.at(now)) fmt::print("{:.6f} s  {}\n", simulation_->time_s(), to_hex(simulation_->hash()));
     if (due.picture.at(now)) collect_paths();
     const Result<> checked = journal_->check(now, simulation_->hash());
-    if (!checked) print(checked.error());
+    if (!checked) fail(checked.error());
     return checked.ok();
 }
 
@@ -200,13 +203,13 @@ void Run::show_progress() {
 
 bool Run::write_trace() {
     const Result<> written = trace_->write(*model_, simulation_->tick(), simulation_->states());
-    if (!written) print(written.error());
+    if (!written) fail(written.error());
     return written.ok();
 }
 
 bool Run::write_contacts() {
     const Result<> written = contacts_->write(*model_, simulation_->tick(), simulation_->contacts());
-    if (!written) print(written.error());
+    if (!written) fail(written.error());
     return written.ok();
 }
 
@@ -214,7 +217,7 @@ bool Run::write_dataset() {
     Result<> written = Error{"the world was changed while its data set was recorded",
                              "record the changed world in a run of its own", "world-changed"};
     if (dataset_->is_of(*model_)) written = dataset_->write(simulation_->states(), simulation_->tick());
-    if (!written) print(written.error());
+    if (!written) fail(written.error());
     return written.ok();
 }
 

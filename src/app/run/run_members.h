@@ -27,6 +27,8 @@ class RunMembers {
     bool reaches_others() const { return open_bus_ != nullptr; }
     /// Starts a process more, if the run has its Simulators in processes of this computer; false: it has not.
     Result<bool> add_simulator();
+    /// True for a Simulator of this name in a process that this run started.
+    bool owns(const std::string& name) const { return processes_.has(name); }
     /// Kills a process that this run started, by the name of its Simulator.
     Result<> kill(const std::string& name);
     /// To be called now and then. An Error: processes of the run's own died or never joined, and it cannot go

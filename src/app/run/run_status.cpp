@@ -33,7 +33,7 @@ RunStatus Run::status(bool with_robots) const {
     }
     for (const MemberReport& m : simulation_->members())
         s.members.push_back({m.number, m.name, state_of(m), m.threads, m.robots, m.islands, m.step_us, m.load,
-                             traffic_.of(m.address)});
+                             traffic_.of(m.address), m.alive && members_->owns(m.name)});
     s.robot_count = model_->robots.size();
     if (with_robots)
         for (const Robot& robot : model_->robots) s.robots.push_back(robot.name);

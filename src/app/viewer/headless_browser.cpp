@@ -8,6 +8,7 @@
 #include <unistd.h>
 
 #include <array>
+#include <chrono>
 #include <cstdlib>
 #include <filesystem>
 #include <vector>
@@ -17,7 +18,8 @@ namespace {
 
 using Json = nlohmann::json;
 
-constexpr int kPatience_ms = 60'000;  // software rendering on a busy machine is slow
+constexpr auto kAnswersWithin = std::chrono::seconds(60);  // software rendering on a busy machine is slow
+constexpr int kServeEvery_ms = 5;
 
 std::string find_browser() {
     if (const char* named = std::getenv("ROBOSS_BROWSER")) return named;
@@ -73,7 +75,8 @@ Error gone() {
 
 }  // namespace
 
-Result<std::unique_ptr<HeadlessBrowser>> HeadlessBrowser::start(int width, int height) {
+Result<std::unique_ptr<HeadlessBrowser>> HeadlessBrowser::start(int width, int height,
+                                                                std::function<bool()> serve) {
     const std::string browser = find_browser();
     if (browser.empty())
         return Error{"Chromium was not found",
@@ -82,7 +85,7 @@ Result<std::unique_ptr<HeadlessBrowser>> HeadlessBrowser::start(int width, int h
     std::string folder = (std::filesystem::temp_directory_path() / "roboss-browser-XXXXXX").string();
     if (mkdtemp(folder.data()) == nullptr)
         return Error{"cannot create the folder " + folder + " for the browser", "free some space there"};
-    std::unique_ptr<HeadlessBrowser> result(new HeadlessBrowser);
+    std::unique_ptr<HeadlessBrowser> result(new HeadlessBrowser(std::move(serve)));
     result->folder_ = folder;
     std::vector<std::string> words{browser,
                                    "--headless=new",
@@ -142,7 +145,8 @@ Result<> HeadlessBrowser::open(const std::string& url) {
 }
 
 Result<Json> HeadlessBrowser::evaluate(const std::string& expression) {
-    Result<Json> answer = call("Runtime.evaluate", {{"expression", expression}, {"returnByValue", true}});
+    Result<Json> answer = call("Runtime.evaluate",
+                               {{"expression", expression}, {"returnByValue", true}, {"awaitPromise", true}});
     if (!answer) return answer.error();
     return answer.value().value("result", Json::object()).value("value", Json());
 }
@@ -174,6 +178,7 @@ Result<Json> HeadlessBrowser::call(const std::string& method, Json parameters) {
 }
 
 Result<Json> HeadlessBrowser::next_message() {
+    const auto end_of_patience = std::chrono::steady_clock::now() + kAnswersWithin;
     for (;;) {
         if (const std::size_t end = unread_.find('\0'); end != std::string::npos) {
             Json message = Json::parse(unread_.substr(0, end), nullptr, false);
@@ -182,8 +187,15 @@ Result<Json> HeadlessBrowser::next_message() {
             return message;
         }
         pollfd waits{from_, POLLIN, 0};
-        if (poll(&waits, 1, kPatience_ms) <= 0)
-            return Error{"the browser does not respond", "try again when the machine is less busy"};
+        if (poll(&waits, 1, kServeEvery_ms) <= 0) {
+            if (!serve_())
+                return Error{"the run ended before the picture was drawn", "see the messages above",
+                             "no-picture"};
+            if (std::chrono::steady_clock::now() > end_of_patience)
+                return Error{"the browser does not respond", "try again when the machine is less busy",
+                             "no-picture"};
+            continue;
+        }
         std::array<char, 65536> buffer;
         const ssize_t n = ::read(from_, buffer.data(), buffer.size());
         if (n <= 0) return gone();

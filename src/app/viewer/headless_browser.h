@@ -4,6 +4,8 @@
 
 #include <sys/types.h>
 
+#include <functional>
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
 
@@ -14,24 +16,26 @@ namespace roboss {
 class HeadlessBrowser {
   public:
     /// Starts the browser found by PATH (chromium, google-chrome ...) or named by ROBOSS_BROWSER, with one
-    /// page of this size in pixels.
-    static Result<std::unique_ptr<HeadlessBrowser>> start(int width, int height);
+    /// page of this size in pixels. While it is waited for, `serve` is called again and again: the page may
+    /// need this thread. False ends the wait, with an Error.
+    static Result<std::unique_ptr<HeadlessBrowser>> start(int width, int height, std::function<bool()> serve);
     ~HeadlessBrowser();
     HeadlessBrowser(const HeadlessBrowser&) = delete;
     HeadlessBrowser& operator=(const HeadlessBrowser&) = delete;
 
     Result<> open(const std::string& url);
-    /// The value of a JavaScript expression, as JSON.
+    /// The value of a JavaScript expression, as JSON; of a Promise what it promises.
     Result<nlohmann::json> evaluate(const std::string& expression);
     /// What the page shows, as a PNG file.
     Result<std::string> picture();
 
   private:
-    HeadlessBrowser() = default;
+    explicit HeadlessBrowser(std::function<bool()> serve) : serve_(std::move(serve)) {}
     Result<nlohmann::json> call(const std::string& method,
                                 nlohmann::json parameters = nlohmann::json::object());
     Result<nlohmann::json> next_message();
 
+    std::function<bool()> serve_;
     pid_t id_ = -1;
     int to_ = -1, from_ = -1;
     std::string folder_;   // of its profile, removed at the end

@@ -16,14 +16,18 @@
 #include "app/run/run.h"
 #include "app/viewer/headless_browser.h"
 #include "core/similar.h"
+#include "wire/viewer_protocol.h"
 
 namespace roboss {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-constexpr auto kPatience = std::chrono::seconds(90);
-constexpr auto kLook = std::chrono::milliseconds(100);
-constexpr auto kSettle = std::chrono::milliseconds(1500);
+constexpr auto kPatience = std::chrono::seconds(180);
+/// What the page still waits for before it shows what its address asks for, once it has drawn all that it
+/// has.
+const char* const kWaits =
+    "new Promise(done => requestAnimationFrame(() => requestAnimationFrame(() => "
+    "done(window.roboss ? window.roboss.waits() : 'the page'))))";
 
 const char* const kSnapshotFooter =
     R"(Runs the world to the given time and draws the picture with headless Chromium.
@@ -108,6 +112,13 @@ bool look_through(SnapshotOptions& snapshot, SenseOptions& sense) {
     return false;
 }
 
+/// Empty: the page shows all that was asked for, without a veil of old news over it.
+Result<std::string> waits_of(HeadlessBrowser& browser) {
+    Result<nlohmann::json> waits = browser.evaluate(kWaits);
+    if (!waits) return waits.error();
+    return waits.value().is_string() ? waits.value().get<std::string>() : "the page";
+}
+
 Result<> write_file(const std::string& file, const std::string& bytes) {
     std::ofstream out(file, std::ios::binary);
     if (out << bytes && out.flush()) return Ok{};
@@ -120,7 +131,7 @@ Result<> write_file(const std::string& file, const std::string& bytes) {
 void add_snapshot_options(CLI::App& command, SnapshotOptions& o) {
     const std::string group = "Picture";
     command.add_option("-o,--output", o.file, "PNG file")->required()->group(group);
-    const auto parameter = [&](const char* key, const char* what) {
+    const auto parameter = [&](const char* key, const std::string& what) {
         return command
             .add_option_function<std::string>(
                 std::string("--") + key,
@@ -136,10 +147,9 @@ void add_snapshot_options(CLI::App& command, SnapshotOptions& o) {
     parameter("select", "name of the robot to select");
     parameter("colour", "colour robots by model, simulator, island or speed")
         ->check(list_of({"model", "simulator", "island", "speed"}));
-    parameter("show",
-              "layers to draw: rays,points,tracks,compass,contacts,bounds,spheres,islands,names,collisions")
-        ->check(list_of({"rays", "points", "tracks", "compass", "contacts", "bounds", "spheres", "islands",
-                         "names", "collisions"}));
+    const std::vector<std::string> overlays(std::begin(viewer_protocol::kPageOverlays),
+                                            std::end(viewer_protocol::kPageOverlays));
+    parameter("show", fmt::format("layers to draw: {}", fmt::join(overlays, ",")))->check(list_of(overlays));
     parameter("theme", "theme of the page: light or dark")->check(list_of({"light", "dark"}));
     parameter("panel", "show the panels, with this one open: inspector, cameras, cluster or view")
         ->check(list_of({"inspector", "cameras", "cluster", "view"}));
@@ -174,34 +184,32 @@ Result<> check_snapshot(const SnapshotOptions& options, const Model& model) {
 
 Result<> take_snapshot(const SnapshotOptions& options, const std::string& url,
                        const std::function<bool()>& serve) {
-    Result<std::unique_ptr<HeadlessBrowser>> browser = HeadlessBrowser::start(options.width, options.height);
+    Result<std::unique_ptr<HeadlessBrowser>> browser =
+        HeadlessBrowser::start(options.width, options.height, serve);
     if (!browser) return browser.error();
     if (Result<> opened = browser.value()->open(address(options, url)); !opened) return opened.error();
     const Clock::time_point end = Clock::now() + kPatience;
-    for (Clock::time_point look = Clock::now();;) {
-        if (!serve())
-            return Error{"the run ended before the picture was drawn", "see the messages above",
-                         "no-picture"};
+    std::string picture;
+    for (;;) {
+        Result<std::string> waits = waits_of(*browser.value());
+        if (!waits) return waits.error();
+        if (waits.value().empty() && !picture.empty()) return write_file(options.file, picture);
         if (Clock::now() > end)
-            return Error{"the page did not draw in time", "open " + url + " in a browser and look for errors",
+            return Error{fmt::format("the page did not draw in {} s: it waits for {}", kPatience.count(),
+                                     waits.value().empty() ? "a quiet moment" : waits.value()),
+                         "try again when the machine is less busy, or open " + url +
+                             " in a browser and look for errors",
                          "no-picture"};
-        if (Clock::now() < look) continue;
-        look = Clock::now() + kLook;
-        Result<nlohmann::json> ready =
-            browser.value()->evaluate("document.body && document.body.dataset.ready");
-        if (!ready) return ready.error();
-        if (ready.value() == "true") break;
-    }
-    // Details on request (rays, contacts, an open inspector) arrive a little after the first State.
-    const Clock::time_point settled =
-        Clock::now() + (options.parameters.empty() ? Clock::duration() : kSettle);
-    while (Clock::now() < settled)
-        if (!serve())
+        picture.clear();
+        if (waits.value().empty()) {
+            Result<std::string> drawn = browser.value()->picture();
+            if (!drawn) return drawn.error();
+            picture = std::move(drawn).value();
+        } else if (!serve()) {
             return Error{"the run ended before the picture was drawn", "see the messages above",
                          "no-picture"};
-    Result<std::string> picture = browser.value()->picture();
-    if (!picture) return picture.error();
-    return write_file(options.file, picture.value());
+        }
+    }
 }
 
 void add_snapshot_command(CLI::App& app, int& exit_code) {

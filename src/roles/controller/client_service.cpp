@@ -263,9 +263,9 @@ void ClientService::send_heartbeats(Bus& bus) const {
         if (seat.serves()) bus.send(kControllerAddress, seat.address, Heartbeat{});
 }
 
-void ClientService::dismiss(Bus& bus, const std::string& reason) const {
+void ClientService::dismiss(Bus& bus, const RunOver& over) const {
     for (const ClientSeat& seat : seats_)
-        if (seat.joined) bus.send(kControllerAddress, seat.address, RunOver{reason});
+        if (seat.joined) bus.send(kControllerAddress, seat.address, over);
 }
 
 bool ClientService::all_joined() const {

@@ -79,7 +79,7 @@ class ClientService {
     void holders_changed() { due_ = true; }
     void send_observations(Bus& bus, const Roster& roster);
     void send_heartbeats(Bus& bus) const;
-    void dismiss(Bus& bus, const std::string& reason) const;
+    void dismiss(Bus& bus, const RunOver& over) const;
 
     bool all_joined() const;
     /// Every synchronous Client has replied to all observations before `tick`.

@@ -200,9 +200,9 @@ void Controller::take_leave(Bus& bus, const Address& from, const LeaveRequest& r
     seat.leaving = true;
 }
 
-void Controller::dismiss(Bus& bus, const std::string& reason) {
-    roster_.dismiss(bus, reason);
-    clients_.dismiss(bus, reason);
+void Controller::dismiss(Bus& bus, const RunOver& over) {
+    roster_.dismiss(bus, over);
+    clients_.dismiss(bus, over);
 }
 
 bool Controller::settled() const {

@@ -84,8 +84,8 @@ class Controller {
     /// loss took are brought back first.
     void abandon_window();
 
-    /// Sends RunOver to everybody; nobody answers after that.
-    void dismiss(Bus& bus, const std::string& reason);
+    /// Sends `over` to everybody; nobody answers after that.
+    void dismiss(Bus& bus, const RunOver& over);
 
     /// The 64-bit hash of the world at tick().
     std::uint64_t hash() const { return world_hash(model_->hash, hashes_); }

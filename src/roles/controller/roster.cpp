@@ -125,9 +125,9 @@ void Roster::send_heartbeats(Bus& bus) const {
             bus.send(kControllerAddress, seats_[seat_id].address, Heartbeat{id_of(seat_id)});
 }
 
-void Roster::dismiss(Bus& bus, const std::string& reason) const {
+void Roster::dismiss(Bus& bus, const RunOver& over) const {
     for (const SimulatorSeat& seat : seats_)
-        if (seat.alive) bus.send(kControllerAddress, seat.address, RunOver{reason});
+        if (seat.alive) bus.send(kControllerAddress, seat.address, over);
 }
 
 }  // namespace roboss

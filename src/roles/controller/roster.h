@@ -68,7 +68,7 @@ class Roster {
     /// The Simulator of this seat may go; nothing depends on it any more.
     void release(Bus& bus, SeatId seat_id);
     void send_heartbeats(Bus& bus) const;
-    void dismiss(Bus& bus, const std::string& reason) const;
+    void dismiss(Bus& bus, const RunOver& over) const;
 
     /// Load balance of the stepping in recent windows: 1 is perfect.
     double balance() const;

@@ -102,7 +102,7 @@ TEST_F(Seats, OfTheLivingGetHeartbeatsAndTheEndOfTheRun) {
     roster.send_heartbeats(bus);
     EXPECT_TRUE(bus.take<Heartbeat>(kFirst).empty());
     EXPECT_EQ(bus.take<Heartbeat>(kSecond).size(), 1u);
-    roster.dismiss(bus, "done");
+    roster.dismiss(bus, {"done"});
     EXPECT_TRUE(bus.take<RunOver>(kFirst).empty());
     EXPECT_EQ(bus.take<RunOver>(kSecond).size(), 1u);
 }

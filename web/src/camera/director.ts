@@ -2,17 +2,21 @@
 // active view.
 import { type Address, type CameraWords, parseCamera } from "../model/address";
 import type { ViewerState, World } from "../model/viewer_state";
-import type { ViewCount } from "../view/viewports";
+import { type ViewCount, viewports } from "../view/viewports";
 import type { Stage } from "../view/stage";
 import { ballsOf } from "./extent";
 import { fitted, type FreePart } from "./fit";
 import { freePart } from "./free_part";
-import { DIRECTIONS, type NamedView, wordsOfCamera } from "./named_views";
+import { angleBetween, type Direction, DIRECTIONS, type NamedView, wordsOfCamera } from "./named_views";
 import { closeness, placeOf } from "./view_camera";
 import type { Views } from "./views";
 
-/** What the second, third and fourth of four views show. */
-const SIDES = ["top", "front", "side"] as const;
+/** What new views show: the first of these that no other view shows. */
+const SIDES = ["top", "front", "side", "isometric"] as const;
+/** rad: views whose directions are nearer to each other look alike. */
+const ALIKE = 0.35;
+/** From the side, over the ground. */
+const FOLLOWED_ELEVATION_MIN = 0.12;
 const OVERVIEW = { azimuth: -2.05, elevation: 0.62 };
 /** Of a picture as high as wide, or higher: from farther above, so that a flat world fills it. */
 const TALL_ELEVATION = 1.15;
@@ -21,7 +25,7 @@ const WIDE_ASPECT = 1.4;
 const START_FACTOR = 1.8;
 
 /** Where the whole world is seen from in a picture of this shape. */
-function overviewOf({ width, height, left, right, top, bottom }: FreePart): { azimuth: number; elevation: number } {
+function overviewOf({ width, height, left, right, top, bottom }: FreePart): Direction {
     const aspect = (width - left - right) / Math.max(1, height - top - bottom),
         tall = Math.max(0, Math.min(1, (WIDE_ASPECT - aspect) / (WIDE_ASPECT - 0.7)));
     return { ...OVERVIEW, elevation: OVERVIEW.elevation + tall * (TALL_ELEVATION - OVERVIEW.elevation) };
@@ -61,8 +65,8 @@ export class Director {
         if (this.state.world.value !== null) this.views.camera.approach(this.state.world.value);
     }
 
-    private free(): FreePart {
-        return freePart(this.stage.canvas, this.stage.viewport);
+    private free(viewport = this.stage.viewport): FreePart {
+        return freePart(this.stage.canvas, viewport);
     }
 
     /** Where the page starts: as its address says, else as the file says, else the whole world. */
@@ -79,7 +83,7 @@ export class Director {
         else rig.jump(this.overview(world));
         const robot = followed === null ? undefined : world.fleet.find(followed[2]);
         if (followed !== null && robot !== undefined) this.startWith(world, robot, followed[1] as "follow" | "chase");
-        this.views.read(this.address, world);
+        for (const number of this.views.read(this.address, world)) this.turnAway(world, number);
     }
 
     private startWith(world: World, robot: number, mode: "follow" | "chase"): void {
@@ -102,9 +106,8 @@ export class Director {
         this.state.cameraMode.set("follow");
     }
 
-    overview(world: World, from?: { azimuth: number; elevation: number }): CameraWords {
-        const free = this.free(),
-            orthographic = this.views.rig.orthographic;
+    overview(world: World, from?: Direction, free = this.free()): CameraWords {
+        const orthographic = this.views.rig.orthographic;
         return fitted(ballsOf(world), { ...(from ?? overviewOf(free)), orthographic }, free);
     }
 
@@ -126,14 +129,34 @@ export class Director {
         if (world !== null) this.goTo(this.overview(world, DIRECTIONS[name]));
     }
 
-    /** New views begin as the active one is; four show the whole world from three sides, too, as in CAD programs. */
+    /** New views show the world, or the robot that the active one follows, from other sides, as in CAD programs. */
     split(count: ViewCount): void {
         const world = this.state.world.value,
-            first = this.views.count.value,
-            turns = count === 4 && world !== null && !this.views.camera.following(),
-            words = turns ? SIDES.map((side) => this.overview(world, DIRECTIONS[side])) : [];
+            before = this.views.count.value;
         this.views.split(count);
-        words.slice(first - 1).forEach((side, k) => this.views.cameras[first + k].rig.jump(side));
+        for (let number = before; number < count && world !== null; ++number) this.turnAway(world, number);
+    }
+
+    /** Gives a view a direction that no view before it has. */
+    private turnAway(world: World, number: number): void {
+        const camera = this.views.cameras[number],
+            others = this.views.cameras.slice(0, number),
+            side =
+                SIDES.find((one) => others.every(({ rig }) => angleBetween(DIRECTIONS[one], rig.goal) > ALIKE)) ??
+                "top";
+        if (!camera.following() || camera.robot === null) {
+            const { clientWidth, clientHeight } = this.stage.canvas,
+                place = viewports(this.views.count.value, clientWidth, clientHeight)[number];
+            return camera.rig.jump(this.overview(world, DIRECTIONS[side], this.free(place)));
+        }
+        camera.mode = "follow";
+        const { azimuth, elevation } = DIRECTIONS[side];
+        camera.rig.jump({
+            ...camera.rig.goal,
+            target: placeOf(world, camera.robot),
+            azimuth,
+            elevation: Math.max(FOLLOWED_ELEVATION_MIN, elevation),
+        });
     }
 
     /** Where the file puts the camera; nothing where it does not. */

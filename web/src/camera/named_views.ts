@@ -6,7 +6,19 @@ import { rotate } from "../kinematics/pose";
 export const NAMED_VIEWS = ["top", "front", "side", "isometric"] as const;
 export type NamedView = (typeof NAMED_VIEWS)[number];
 
-export const DIRECTIONS: Record<NamedView, { azimuth: number; elevation: number }> = {
+/** From which a camera looks at its target. */
+export interface Direction {
+    azimuth: number;
+    elevation: number;
+}
+
+/** rad */
+export function angleBetween(a: Direction, b: Direction): number {
+    const flat = Math.cos(a.elevation) * Math.cos(b.elevation) * Math.cos(a.azimuth - b.azimuth);
+    return Math.acos(Math.max(-1, Math.min(1, flat + Math.sin(a.elevation) * Math.sin(b.elevation))));
+}
+
+export const DIRECTIONS: Record<NamedView, Direction> = {
     top: { azimuth: -Math.PI / 2, elevation: Math.PI / 2 - 0.001 },
     front: { azimuth: 0, elevation: 0.02 },
     side: { azimuth: -Math.PI / 2, elevation: 0.02 },

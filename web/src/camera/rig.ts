@@ -15,6 +15,14 @@ export class CameraRig {
     orthographic = false;
     readonly now: CameraWords = { target: [0, 0, 0], azimuth: -1.1, elevation: 0.6, distance: 40 };
 
+    /** What is drawn is what was asked for, as far as one sees. */
+    get arrived(): boolean {
+        const { goal, now } = this,
+            off = Math.hypot(...goal.target.map((value, k) => value - now.target[k])),
+            turn = Math.hypot(goal.azimuth - now.azimuth, goal.elevation - now.elevation);
+        return off < 0.003 * goal.distance && turn < 0.003 && Math.abs(goal.distance / now.distance - 1) < 0.003;
+    }
+
     /** Goes there at once. */
     jump(words: CameraWords): void {
         for (const place of [this.goal, this.now]) {

@@ -27,6 +27,11 @@ export class Views {
         return this.cameras.slice(0, this.count.value);
     }
 
+    /** No camera is on its way to where it shall be. */
+    get arrived(): boolean {
+        return this.shown.every(({ rig }) => rig.arrived);
+    }
+
     activate(number: number): void {
         if (number < this.count.value && number !== this.active.value) this.active.set(number);
     }
@@ -64,21 +69,27 @@ export class Views {
         return words;
     }
 
-    /** The other way round, after the first camera was placed. */
-    read(address: Address, world: World): void {
+    /** The other way round, after the first camera was placed; the numbers of views of which the address says nothing. */
+    read(address: Address, world: World): number[] {
         this.cameras[0].rig.orthographic ||= address.get("projection") === "orthographic";
-        const count = VIEW_COUNTS.find((number) => String(number) === address.get("views"));
-        if (count === undefined) return;
+        const count = VIEW_COUNTS.find((number) => String(number) === address.get("views")),
+            untold: number[] = [];
+        if (count === undefined) return [];
         for (let k = 1; k < count; ++k) {
             this.copy(this.cameras[0], this.cameras[k]);
             const [camera, mode, name, flat] = (address.get(`view${k + 1}`) ?? "").split(";"),
                 words = parseCamera(camera),
                 one = this.cameras[k];
-            if (words !== null) one.rig.jump(words);
+            if (words === null) {
+                untold.push(k);
+                continue;
+            }
+            one.rig.jump(words);
             one.mode = MODES.find((known) => known === mode) ?? "orbit";
             one.robot = world.fleet.find(name ?? "") ?? null;
             one.rig.orthographic = flat === "orthographic";
         }
         this.count.set(count);
+        return untold;
     }
 }

@@ -9,7 +9,7 @@ import type { Placement, Placing } from "./placing";
 import type { RunLink } from "./run_link";
 import type { Selection } from "./selection";
 import { robotKey } from "./sight";
-import { UndoStack } from "./undo";
+import { type Step, UndoStack } from "./undo";
 import type { ViewerState, World } from "./viewer_state";
 
 const ARRIVAL_MS = 15_000;
@@ -84,10 +84,11 @@ export class Editing {
             else if (this.selection.robots.length > 0) this.say("What is selected is locked.", true);
             return;
         }
+        const before = this.selected();
         if (!(await this.changed(["remove", ...names])).done) return;
-        this.undo.push({
+        this.pushed(before, {
             name: `remove ${few(names)}`,
-            undo: async () => this.arrive(await this.changed(["restore", ...names])),
+            undo: async () => (await this.changed(["restore", ...names])).done,
             redo: async () => (await this.changed(["remove", ...names])).done,
         });
     }
@@ -154,24 +155,44 @@ export class Editing {
     }
 
     private async add(words: string[], name: string): Promise<void> {
-        const came = await this.changed(words);
-        if (!this.arrive(came) || came.names.length === 0) return;
-        const { names } = came;
-        this.undo.push({
+        const before = this.selected(),
+            { done, names } = await this.changed(words);
+        if (!done || names.length === 0) return;
+        this.select(names);
+        this.pushed(before, {
             name,
             undo: async () => (await this.changed(["remove", ...names])).done,
-            redo: async () => this.arrive(await this.changed(["restore", ...names])),
+            redo: async () => (await this.changed(["restore", ...names])).done,
         });
     }
 
-    /** Selects the robots that came. */
-    private arrive({ done, names }: { done: boolean; names: string[] }): boolean {
+    /** Names of the robots that are selected, the primary one first. */
+    private selected(): string[] {
+        return this.selection.robots.map((robot) => this.name(robot));
+    }
+
+    private select(names: readonly string[]): void {
         const robots = names.map((name) => this.world?.fleet.find(name)).filter((robot) => robot !== undefined);
-        if (robots.length > 0) {
-            this.selection.only(null);
-            this.selection.set(robots);
-        }
-        return done;
+        this.selection.set(robots);
+    }
+
+    /**
+     * A step that was just done. Undone it gives the selection of before the step back, and done again that of now; but
+     * what a person has selected meanwhile stays selected.
+     */
+    private pushed(before: readonly string[], step: Step): void {
+        const after = this.selected(),
+            going = (go: () => Promise<boolean>, from: readonly string[], to: readonly string[]) => async () => {
+                const own = String(this.selected()) !== String(from),
+                    went = await go();
+                if (went && !own) this.select(to);
+                return went;
+            };
+        this.undo.push({
+            name: step.name,
+            undo: going(step.undo, after, before),
+            redo: going(step.redo, before, after),
+        });
     }
 
     /** A request that changes which robots there are; the names of those that are new when the page has the new scene. */

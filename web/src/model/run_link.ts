@@ -88,7 +88,7 @@ export class RunLink {
                 void this.load(message.scene);
                 break;
             case "over":
-                this.state.over.set(message.reason);
+                this.state.over.set({ reason: message.reason, failed: message.failed === true });
                 break;
             case "status":
                 this.state.over.set(null);

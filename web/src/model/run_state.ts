@@ -1,6 +1,7 @@
 // What is true of the run as far as the page knows, in words, each with its remedy. One pure function, so that a test goes
 // through all of it.
 import type { LinkState } from "../wire/connection";
+import type { Over } from "./viewer_state";
 import type { Probe } from "../wire/probe";
 
 export interface RunFacts {
@@ -10,7 +11,7 @@ export interface RunFacts {
     /** Connected at least once. */
     seen: boolean;
     /** Why the run is over, as it said itself; null: it said nothing. */
-    over: string | null;
+    over: Over | null;
     /** There is a world to show. */
     world: boolean;
     /** Versions of the protocol, of the page and of the run. */
@@ -30,6 +31,7 @@ export interface RunWords {
         | "refused"
         | "full"
         | "ended"
+        | "failed"
         | "gone"
         | "nobody"
         | "no-world"
@@ -46,15 +48,22 @@ export interface RunWords {
 export const QUIET_S = 5;
 const NO_WORLD_S = 2;
 
+/** A failure comes with its remedy on a line of its own. */
+function overWords({ reason, failed }: Over): Pick<RunWords, "kind" | "text" | "remedy"> {
+    const [first, ...more] = reason.split("\n").map((line) => line.trim().replace(/\.$/, "")),
+        told = more.filter((line) => line !== "").map((line) => line.charAt(0).toUpperCase() + line.slice(1));
+    return {
+        kind: failed ? "failed" : "ended",
+        text: `${failed ? "The run has failed" : "The run has ended"}: ${first}.`,
+        remedy: [...told, "The picture shows its last moment"].map((words) => `${words}.`).join(" "),
+    };
+}
+
 function whileOpen(facts: RunFacts): RunWords | null {
-    if (facts.over !== null)
-        return {
-            kind: "ended",
-            text: `The run has ended: ${facts.over}.`,
-            remedy: "The picture shows its last moment. This page waits for the next run.",
-            retries: false,
-            button: null,
-        };
+    if (facts.over !== null) {
+        const words = overWords(facts.over);
+        return { ...words, remedy: `${words.remedy} This page waits for the next run.`, retries: false, button: null };
+    }
     if (!facts.world && facts.quiet_s >= NO_WORLD_S)
         return {
             kind: "no-world",
@@ -116,14 +125,15 @@ export function wordsOf(facts: RunFacts): RunWords | null {
     if (facts.link === "open") return whileOpen(facts);
     const refused = refusal(facts.probe);
     if (refused !== null) return refused;
-    if (facts.over !== null)
+    if (facts.over !== null) {
+        const words = overWords(facts.over);
         return {
-            kind: "ended",
-            text: `The run has ended: ${facts.over}.`,
-            remedy: "The picture shows its last moment. Start it again, and this page connects by itself.",
+            ...words,
+            remedy: `${words.remedy} Start it again, and this page connects by itself.`,
             retries: true,
             button: "Try now",
         };
+    }
     if (facts.seen)
         return {
             kind: "gone",

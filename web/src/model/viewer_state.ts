@@ -11,6 +11,7 @@ import { History } from "./history";
 import type { Extras } from "../wire/onboard";
 import type { Attaching } from "./bonding";
 import type { Shown } from "./preview";
+import { PAGE_OVERLAYS } from "../protocol";
 import { Signal } from "./signal";
 import { Sight, type Store } from "./sight";
 import type { Roles } from "../wire/roles";
@@ -21,6 +22,14 @@ export interface Adding {
     /** "box": for the hint. */
     words: string;
     put(point: readonly [number, number, number]): void;
+}
+
+/** The end of a run. */
+export interface Over {
+    /** In the run's words; a remedy on a line of its own. */
+    reason: string;
+    /** It could not go on. */
+    failed: boolean;
 }
 
 /** A browser may refuse it. */
@@ -37,26 +46,7 @@ export type ColourBy = "model" | "simulator" | "island" | "speed";
 export type Tool = "select" | "move" | "push" | "place" | "turn";
 export type CameraMode = "orbit" | "fly" | "follow" | "chase";
 export type Theme = "light" | "dark";
-export const OVERLAYS = [
-    "rays",
-    "points",
-    "tracks",
-    "compass",
-    "contacts",
-    "radio",
-    "bounds",
-    "spheres",
-    "islands",
-    "names",
-    "collisions",
-    "frames",
-    "masses",
-    "inertia",
-    "axes",
-    "labels",
-    "wireframe",
-    "transparent",
-] as const;
+export const OVERLAYS = PAGE_OVERLAYS;
 export type Overlay = (typeof OVERLAYS)[number];
 
 /** A scene with the States that came for it. */
@@ -75,7 +65,7 @@ export class ViewerState {
     /** Of the protocol, as the run says it; null: not known. */
     readonly version = new Signal<number | null>(null);
     /** Why the run is over, in its own words; null: it is not, as far as known. */
-    readonly over = new Signal<string | null>(null);
+    readonly over = new Signal<Over | null>(null);
     readonly program = new Signal("");
     /** Who may do what, and who has control; null: not known. */
     readonly roles = new Signal<Roles | null>(null);

@@ -25,8 +25,16 @@ export function beamDirection(sensor: SensorInfo, k: number): [number, number, n
 }
 
 /** Of one sensor, in the picture: a lidar of 64 x 1024 beams stays readable, and fast. */
-export const RAYS_MAX = 720;
+export const RAYS_MAX = 120;
 export const HITS_MAX = 12_000;
+
+/**
+ * How opaque a ray is at the sensor, relative to its end. Many rays lie close together there: they begin faint, so that the
+ * fan is as dense everywhere and what is behind it is seen.
+ */
+export function beginOpacity(rays: number): number {
+    return Math.max(0, Math.min(0.6, 8 / Math.max(1, rays) - 0.07));
+}
 
 /**
  * Which beams of a sensor are drawn, at most `most` of them: every n-th of each row and every m-th row, so that what is

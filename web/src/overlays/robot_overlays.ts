@@ -4,12 +4,14 @@ import { composed, rotate, transform } from "../kinematics/pose";
 import { bodyAt, placeBodies } from "../kinematics/tree";
 import type { ViewerState, World } from "../model/viewer_state";
 import type { Stage } from "../view/stage";
-import { beamDirection, HITS_MAX, RAYS_MAX, thinned } from "./beams";
+import { beamDirection, beginOpacity, HITS_MAX, RAYS_MAX, thinned } from "./beams";
 import { LineField } from "./line_field";
 
 const RAY = new THREE.Color(0xff5d73),
     RAY_FREE = new THREE.Color(0x8a4a58),
     HIT = new THREE.Color(0xffd166);
+/** More of them are drawn small: they lie close together. */
+const MANY_HITS = 200;
 const NORTH = new THREE.Color(0xff5d5d),
     HEADING = new THREE.Color(0x5aa9ff),
     DIAL = new THREE.Color(0x8fa3bd);
@@ -61,6 +63,7 @@ export class RobotOverlays {
                 frame = composed(composed(this.bodies.subarray(at, at + 7), link.frame), sensor.frame);
             const hits = thinned(sensor, ranges.length, HITS_MAX),
                 rays = thinned(sensor, ranges.length, RAYS_MAX),
+                begin = beginOpacity(Math.min(RAYS_MAX, ranges.length)),
                 most = sensor.range_max ?? 10;
             ranges.forEach((told, beam) => {
                 if (!hits(beam) && !rays(beam)) return;
@@ -69,11 +72,12 @@ export class RobotOverlays {
                 const way = beamDirection(sensor, beam),
                     end = transform(frame, [way[0] * range, way[1] * range, way[2] * range]);
                 if (rays(beam))
-                    this.rays.add(frame[0], frame[1], frame[2], end[0], end[1], end[2], met ? RAY : RAY_FREE);
+                    this.rays.add(frame[0], frame[1], frame[2], end[0], end[1], end[2], met ? RAY : RAY_FREE, begin);
                 if (met && hits(beam)) points.push(end[0], end[1], end[2]);
             });
         });
         this.rays.end();
+        this.hits.material.size = points.length > 3 * MANY_HITS ? 3 : 5;
         this.hits.geometry.setAttribute("position", new THREE.Float32BufferAttribute(points, 3));
     }
 

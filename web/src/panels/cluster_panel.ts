@@ -63,6 +63,11 @@ export class ClusterPanel {
         { row: HTMLTableRowElement; cells: HTMLElement[]; bar: HTMLElement; kill: HTMLButtonElement }
     >();
     private readonly history = new StepTimes();
+    private readonly noKill = h(
+        "p",
+        { class: "hint", hidden: true },
+        "To kill Simulators and watch the run recover, start it with --processes N.",
+    );
     private readonly plotHost = h("div", { class: "chart-canvas" });
     private plot: uPlot | null = null;
     private plotted = "";
@@ -118,6 +123,7 @@ export class ClusterPanel {
                     this.table,
                 ),
             ),
+            this.noKill,
             h("div", { class: "panel-head sub" }, h("h3", {}, "Step time"), h("span", { class: "facts" }, "µs a tick")),
             this.plotHost,
             stepProfile(state),
@@ -171,6 +177,7 @@ export class ClusterPanel {
                 row.remove();
                 this.rows.delete(id);
             }
+        this.noKill.hidden = members.some((member) => member.own_process === true);
         for (const member of members) {
             const shown = this.rows.get(member.id) ?? this.addRow(member.id);
             const texts = [
@@ -184,7 +191,7 @@ export class ClusterPanel {
             texts.forEach((text, k) => setText(shown.cells[k], text));
             shown.bar.style.width = `${100 * Math.max(0, Math.min(1, member.load))}%`;
             shown.row.dataset.state = member.state;
-            shown.kill.disabled = !present(member);
+            shown.kill.hidden = member.own_process !== true || !present(member);
             const threads = `${member.threads} ${member.threads === 1 ? "thread" : "threads"}`;
             shown.row.title = `${member.name}: ${member.state}, ${threads}\n${told(member.messages)}`;
         }

@@ -1,8 +1,10 @@
-// What a newcomer needs to know, once: a card over the picture that never comes back after it was dismissed.
+// What a newcomer needs to know, once: a card that never comes back after it was dismissed. It stands below the panel at the
+// right, which has room before a robot is selected; where panels are sheets, over the picture, which leaves it free.
 import type { Address } from "../model/address";
 import { keep, kept } from "../model/kept";
 import { h } from "../ui/dom";
 import { COARSE } from "../ui/touch";
+import { NARROW } from "./sheets";
 
 const KEPT = "roboss.hints";
 const MOUSE = [
@@ -16,23 +18,27 @@ const TOUCH = [
     "The tabs below open the panels. ⋯ holds what has no room.",
 ];
 
-/** null: they were dismissed before, or are not wanted. */
-export function firstHints(address: Address): HTMLElement | null {
+/** Nothing where they were dismissed before, or are not wanted. */
+export function firstHints(address: Address, view: HTMLElement, panel: HTMLElement): void {
     // Pictures and tests ask for a quality or for less around the picture.
-    if (["hide", "quality", "panel"].some((name) => address.get(name) !== null)) return null;
+    if (["hide", "quality", "panel"].some((name) => address.get(name) !== null)) return;
     const before = kept(KEPT);
     // Where nothing can be kept, they would come each time.
-    if (before === "dismissed" || !keep(KEPT, before ?? "shown")) return null;
+    if (before === "dismissed" || !keep(KEPT, before ?? "shown")) return;
     const element = h(
         "aside",
-        { class: "hints", "aria-label": "First steps" },
+        { class: "hints", "aria-label": "First steps", "data-covers": "" },
         h("strong", {}, "First steps"),
         h("ul", {}, ...(COARSE ? TOUCH : MOUSE).map((line) => h("li", {}, line))),
         h("div", { class: "buttons" }, h("button", { type: "button", class: "small", onclick: dismiss }, "Got it")),
     );
+    const narrow = matchMedia(NARROW),
+        place = () => (narrow.matches ? view : panel).append(element);
+    narrow.addEventListener("change", place);
+    place();
     function dismiss(): void {
         keep(KEPT, "dismissed");
+        narrow.removeEventListener("change", place);
         element.remove();
     }
-    return element;
 }

@@ -1,6 +1,6 @@
 // What the colours of robots mean, over the picture, while they are not their own.
 import type { ColourBy, ViewerState } from "../model/viewer_state";
-import { h } from "../ui/dom";
+import { cutInside, h } from "../ui/dom";
 import { groupCss } from "../view/palette";
 import { SPEED_FULL } from "../view/colouring";
 
@@ -15,7 +15,7 @@ function simulators(state: ViewerState): HTMLElement[] {
                 "div",
                 { class: "legend-row", title: name },
                 h("span", { class: "swatch", style: `background:${groupCss(id)}` }),
-                h("span", { class: "legend-name" }, name === "" ? `Simulator ${id}` : name),
+                h("span", { class: "legend-name" }, ...cutInside(name === "" ? `Simulator ${id}` : name)),
                 h("span", { class: "count" }, `${robots}`),
             ),
         );

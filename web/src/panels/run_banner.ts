@@ -23,7 +23,8 @@ export function runBanner(state: ViewerState, run: RunLink): HTMLElement {
         button,
     );
     let seen = false,
-        heard = performance.now();
+        quiet_ms = 0,
+        looked = performance.now();
     const show = () => {
         const link = state.link.value;
         if (link.state === "open") seen = true;
@@ -35,7 +36,7 @@ export function runBanner(state: ViewerState, run: RunLink): HTMLElement {
             world: state.world.value !== null,
             versions: state.version.value === null ? null : { page: VERSION, run: state.version.value },
             simulators: state.status.value?.simulators ?? null,
-            quiet_s: (performance.now() - heard) / 1000,
+            quiet_s: quiet_ms / 1000,
             host: location.host,
         });
         element.hidden = words === null;
@@ -49,14 +50,20 @@ export function runBanner(state: ViewerState, run: RunLink): HTMLElement {
         setText(button, words.button ?? "");
     };
     state.status.follow(() => {
-        heard = performance.now();
+        quiet_ms = 0;
         show();
     });
     state.link.follow(() => {
-        heard = performance.now();
+        quiet_ms = 0;
         show();
     });
     for (const signal of [state.over, state.version, state.world]) signal.follow(show);
-    setInterval(show, LOOK_EVERY_MS);
+    // A page that is too busy to hear does not blame the run: a long pause of its own counts as one look.
+    setInterval(() => {
+        const now = performance.now();
+        quiet_ms += Math.min(now - looked, 2 * LOOK_EVERY_MS);
+        looked = now;
+        show();
+    }, LOOK_EVERY_MS);
     return element;
 }

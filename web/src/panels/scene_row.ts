@@ -1,7 +1,7 @@
 // One row of the scene tree: fold, sign of its kind, name, and at its end lock and eye.
 import type { RowKind, TreeRow } from "../model/scene_tree";
 import type { World } from "../model/viewer_state";
-import { h, icon } from "../ui/dom";
+import { cutInside, h, icon } from "../ui/dom";
 import type { IconName } from "../ui/icons";
 import { ownCss } from "../view/own_colour";
 
@@ -47,7 +47,7 @@ export function rowElement(world: World, row: TreeRow, look: RowLook): HTMLEleme
         },
         row.open === null ? h("span", { class: "twist" }) : twist(row.open, look),
         sign(world, row, look),
-        h("span", { class: "row-name", title: row.text }, row.text),
+        h("span", { class: "row-name", title: row.text }, ...cutInside(row.text)),
         row.count === undefined ? null : h("span", { class: "count" }, String(row.count)),
         ...(row.sight.length > 0 ? switches(row, look) : []),
     );

@@ -4,7 +4,7 @@ import type { RunLink } from "../model/run_link";
 import { throttled } from "../ui/throttle";
 import type { ViewerState } from "../model/viewer_state";
 import { h, icon, iconButton, setText } from "../ui/dom";
-import { clockText, factorText } from "../ui/numbers";
+import { clockText, factorText, type Pace, paceOf } from "../ui/numbers";
 import type { Signal } from "../model/signal";
 import { bookmarksOnPath, timelineOf } from "../model/timeline";
 import { asked, chosen } from "../ui/confirm";
@@ -17,6 +17,11 @@ import { TimeTrack } from "./time_track";
 const NO_JOURNAL = "Start the run with --journal FILE to look at earlier times";
 /** s of the first look back. */
 const REWIND_S = 5;
+const PACE_TIPS: Record<Pace | "paused", string> = {
+    paused: "The run is paused",
+    steady: "Real-time factor: simulated seconds per second",
+    late: "Real-time factor: the run is slower than real time and than the speed asked for",
+};
 const SPEEDS = ["0.1", "0.25", "0.5", "1", "2", "5", "10", "max"];
 
 export interface TimeBar {
@@ -56,15 +61,16 @@ export function timeBar(state: ViewerState, run: RunLink): TimeBar {
     const rtf = h("output", {
         class: "rtf",
         "aria-label": "Real-time factor",
-        title: "Real-time factor: simulated seconds per second",
     });
     const tick = h("output", { class: "tick", "aria-label": "Tick", title: "Tick" });
     state.status.follow((status) => {
         play.replaceChildren(icon(status?.paused === true ? "play" : "pause"));
         play.setAttribute("aria-label", status?.paused === true ? "Play" : "Pause");
         play.title = status?.paused === true ? "Play  (Space)" : "Pause  (Space)";
-        setText(rtf, status?.paused === true ? "paused" : factorText(status?.rtf));
-        rtf.classList.toggle("paused", status?.paused === true);
+        const pace = status?.paused === true ? "paused" : paceOf(status?.rtf, status?.speed);
+        setText(rtf, pace === "paused" ? pace : factorText(status?.rtf));
+        rtf.dataset.pace = pace;
+        rtf.title = PACE_TIPS[pace];
     });
     const showTick = () => {
         const at = (state.shown.value ?? state.status.value)?.tick; // of the moment that is seen

@@ -5,7 +5,7 @@ import type { ViewerState } from "../model/viewer_state";
 import { h, iconButton, setText } from "../ui/dom";
 import { clockText } from "../ui/numbers";
 import type { BookmarkInfo, Timeline } from "../wire/timeline";
-import { TimeTrack } from "./time_track";
+import { THUMB_PX, TimeTrack } from "./time_track";
 
 interface Row {
     element: HTMLElement;
@@ -116,9 +116,11 @@ export class BranchPanel {
             shown.element.classList.toggle("present", row.present);
             shown.element.classList.toggle("on-path", row.onPath);
             setText(shown.facts, `${clockText(row.first)} to ${clockText(row.last)}`);
-            const scale = 100 / (last - first);
-            shown.track.element.style.left = `${(row.first - first) * scale}%`;
-            shown.track.element.style.width = `max(14px, ${(row.last - row.first) * scale}%)`;
+            // Half a thumb at each end of a track is no time: so equal times are as long in all rows, and lie one below
+            // the other.
+            const share = (time: number) => `${(time / (last - first)).toFixed(6)} * (100% - ${THUMB_PX}px)`;
+            shown.track.element.style.left = `calc(${share(row.first - first)})`;
+            shown.track.element.style.width = `calc(${share(row.last - row.first)} + ${THUMB_PX}px)`;
             const length = Math.max(1e-9, row.last - row.first),
                 now = row.present ? Math.min(1, (status.time_s - row.first) / length) : null;
             const marks = timeline.bookmarks.filter((mark) => mark.branch === row.branch.id);

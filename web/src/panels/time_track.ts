@@ -5,14 +5,15 @@ import { marksOf, markText, placeOf, sliderTime } from "../model/timeline";
 import type { ViewerState } from "../model/viewer_state";
 import { h, setText } from "../ui/dom";
 import { clockText } from "../ui/numbers";
+import { COARSE } from "../ui/touch";
 import type { BookmarkInfo } from "../wire/timeline";
 
 const REST_MS = 140;
 const STILL_PX = 2;
 const STEPS = 100_000;
 const PIXELS_A_MARK = 84;
-/** Width of the slider's thumb, px: half of it at each end is no time. */
-const THUMB = 13;
+/** Width of the slider's thumb, as --thumb of the style: half of it at each end is no time. */
+export const THUMB_PX = COARSE ? 24 : 13;
 
 export interface TrackSpan {
     first: number;
@@ -120,7 +121,7 @@ export class TimeTrack {
         if (Math.hypot(event.clientX - x, event.clientY - y) < STILL_PX) return;
         this.pointed = { x: event.clientX, y: event.clientY };
         const box = this.slider.getBoundingClientRect(),
-            time = sliderTime(this.span, (event.clientX - box.left - THUMB / 2) / Math.max(1, box.width - THUMB));
+            time = sliderTime(this.span, (event.clientX - box.left - THUMB_PX / 2) / Math.max(1, box.width - THUMB_PX));
         this.element.classList.add("pointed");
         this.showBubble(time);
         clearTimeout(this.timer);

@@ -111,6 +111,7 @@ function worldFacts(state: ViewerState): HTMLElement {
             world = state.world.value;
         dot.dataset.state = state.link.value.state !== "open" ? "gone" : status?.paused === true ? "paused" : "running";
         setText(name, world?.fleet.scene.world ?? "");
+        name.title = name.textContent ?? "";
         const parts =
             world === null ? [] : [`${short(world.fleet.count)} ${world.fleet.count === 1 ? "robot" : "robots"}`];
         if (status !== null) {

@@ -8,7 +8,8 @@ import type { ViewerState } from "../model/viewer_state";
 import { choice, h } from "../ui/dom";
 import { VIEW_COUNTS, type ViewCount } from "../view/viewports";
 
-const NAMES: Record<NamedView, [string, string]> = {
+/** With the key of each. */
+export const VIEW_NAMES: Record<NamedView, [string, string]> = {
     top: ["Top", "5"],
     front: ["Front", "6"],
     side: ["Side", "7"],
@@ -28,7 +29,7 @@ export function viewActions(director: Director): Action[] {
             id: `camera.${name}`,
             title: name === "isometric" ? "View from a corner (isometric)" : `View from the ${name}`,
             group: "Camera",
-            keys: [NAMES[name][1]],
+            keys: [VIEW_NAMES[name][1]],
             run: () => director.view(name),
         })),
         { id: "camera.file", title: "The file's camera", group: "Camera", keys: ["9"], run: () => director.fileView() },
@@ -62,7 +63,7 @@ export function viewBar(state: ViewerState, views: Views, director: Director): H
     state.world.follow((world) => (file.hidden = world?.loaded.scene.look?.camera === undefined));
     views.count.follow((count) => split.show(String(count) as "1" | "2" | "4"));
     const named = NAMED_VIEWS.map((name) =>
-        button(NAMES[name][0], `View: ${name}  (${NAMES[name][1]})`, () => director.view(name)),
+        button(VIEW_NAMES[name][0], `View: ${name}  (${VIEW_NAMES[name][1]})`, () => director.view(name)),
     );
     const buttons = h(
         "div",

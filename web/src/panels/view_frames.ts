@@ -2,9 +2,21 @@
 import type { Views } from "../camera/views";
 import type { ViewerState } from "../model/viewer_state";
 import { h, setText } from "../ui/dom";
+import { VIEW_NAMES } from "./view_bar";
 import { viewports } from "../view/viewports";
+import { angleBetween, DIRECTIONS, NAMED_VIEWS } from "../camera/named_views";
+import type { ViewCamera } from "../camera/view_camera";
 
+/** rad: a view that was hardly turned keeps its name. */
+const NAMED_WITHIN = 0.02;
+const NAMED_EVERY_MS = 400;
 const MODES = { orbit: "Orbit", fly: "Fly", follow: "Follow", chase: "Chase" };
+
+function wordsOf({ rig, mode }: ViewCamera, followed: string): string {
+    const named = NAMED_VIEWS.find((name) => angleBetween(DIRECTIONS[name], rig.goal) < NAMED_WITHIN);
+    if (mode === "orbit" && named !== undefined) return VIEW_NAMES[named][0];
+    return `${MODES[mode]} ${followed}`.trim();
+}
 
 export function viewFrames(state: ViewerState, views: Views): HTMLElement {
     const element = h("div", { class: "view-frames", "aria-hidden": "true" });
@@ -23,7 +35,7 @@ export function viewFrames(state: ViewerState, views: Views): HTMLElement {
                 name = followed ? (state.world.value?.fleet.name(robot) ?? "") : "";
             frame.classList.toggle("active", k === views.active.value);
             frame.style.cssText = `left:${place.left}px;top:${place.top}px;width:${place.width}px;height:${place.height}px`;
-            setText(frame.firstElementChild as Element, `${k + 1}  ${MODES[mode]} ${name}`.trim());
+            setText(frame.firstElementChild as Element, `${k + 1}  ${wordsOf(views.cameras[k], name)}`);
         });
     };
     for (const signal of [views.count, views.active]) (signal as typeof views.active).follow(show);
@@ -31,5 +43,6 @@ export function viewFrames(state: ViewerState, views: Views): HTMLElement {
     state.selected.follow(show);
     state.world.follow(show);
     new ResizeObserver(show).observe(document.body);
+    setInterval(() => views.count.value > 1 && show(), NAMED_EVERY_MS); // a camera that is turned loses its name
     return element;
 }

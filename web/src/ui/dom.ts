@@ -85,6 +85,14 @@ export function choice<T extends string>(
     };
 }
 
+const TAIL_LETTERS = 7;
+
+/** A name that is cut inside where it has no room: names of many robots differ at their ends. */
+export function cutInside(name: string): HTMLElement[] {
+    const at = Math.max(0, name.length - TAIL_LETTERS);
+    return [h("span", { class: "name-head" }, name.slice(0, at)), h("span", { class: "name-tail" }, name.slice(at))];
+}
+
 /** Changes a text only where it differs, so that nothing is laid out again for nothing. */
 export function setText(element: Element, text: string): void {
     if (element.textContent !== text) element.textContent = text;

@@ -41,3 +41,14 @@ export function factorText(value: number | null | undefined): string {
     if (value === null || value === undefined || !Number.isFinite(value)) return "–";
     return value >= 100 ? `${value.toFixed(0)}×` : value >= 10 ? `${value.toFixed(1)}×` : `${value.toFixed(2)}×`;
 }
+
+export type Pace = "steady" | "late";
+/** Of what is asked for: less is not the noise of a short measurement. */
+const LATE_FACTOR = 0.95;
+
+/** late: below real time, though the speed asked for ("0.5", "max") is not. Slow motion that was asked for is not late. */
+export function paceOf(factor: number | null | undefined, speed: string | undefined): Pace {
+    if (factor === null || factor === undefined || !Number.isFinite(factor)) return "steady";
+    const asked = speed === undefined || speed === "max" ? 1 : Math.min(1, Number(speed));
+    return factor < LATE_FACTOR * asked ? "late" : "steady";
+}

@@ -125,6 +125,8 @@ export interface MemberStatus {
     step_us: number;
     state: string;
     messages?: MessageRate;
+    /** The run started it as a process, and can kill it. */
+    own_process?: boolean;
 }
 
 export interface Status {
@@ -266,7 +268,7 @@ export type Incoming =
     | Extras
     | Answer
     | Roles
-    | { type: "over"; reason: string }
+    | { type: "over"; reason: string; failed?: boolean }
     | Timeline
     | { type: "no_pictures"; scene: number; text: string; code: string }
     | { type: "notice"; text: string };
