@@ -183,13 +183,16 @@ void forge(const std::string& good, const std::string& path) {
     };
     Database db = std::move(Database::open_read(path)).value();
     std::vector<std::string> tables;
-    for (const Row& row : db.select("SELECT name FROM sqlite_master WHERE type = 'table'").value())
+    const std::vector<Row> names = db.select("SELECT name FROM sqlite_master WHERE type = 'table'").value();
+    for (const Row& row : names)
         tables.push_back(std::get<std::string>(row[0]));
     for (const std::string& table : tables) {
         const std::vector<Row> rows = db.select("SELECT rowid FROM " + table).value();
+        const std::vector<Row> columns =
+            db.select("SELECT name FROM pragma_table_info('" + table + "')").value();
         for (const Row& row : rows) {
             const std::string at = " WHERE rowid = " + std::to_string(std::get<std::int64_t>(row[0]));
-            for (const Row& info : db.select("SELECT name FROM pragma_table_info('" + table + "')").value())
+            for (const Row& info : columns)
                 for (int how = 0; how < 6; ++how) {
                     const std::string& column = std::get<std::string>(info[0]);
                     const std::string change =
