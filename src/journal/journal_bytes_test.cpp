@@ -184,8 +184,7 @@ void forge(const std::string& good, const std::string& path) {
     Database db = std::move(Database::open_read(path)).value();
     std::vector<std::string> tables;
     const std::vector<Row> names = db.select("SELECT name FROM sqlite_master WHERE type = 'table'").value();
-    for (const Row& row : names)
-        tables.push_back(std::get<std::string>(row[0]));
+    for (const Row& row : names) tables.push_back(std::get<std::string>(row[0]));
     for (const std::string& table : tables) {
         const std::vector<Row> rows = db.select("SELECT rowid FROM " + table).value();
         const std::vector<Row> columns =

@@ -17,6 +17,8 @@ inline constexpr std::int64_t kFirstSealedFormat = 8;
 inline constexpr const char* kMetaWorld = "world";
 /// Key in `meta`: hash of its other rows.
 inline constexpr const char* kMetaCheck = "check";
+/// Remedy for a damaged file.
+inline constexpr const char* kAnotherCopy = "take another copy of the file, or start without it";
 
 extern const char* const kJournalTables;
 /// The tables that format 5 has added.
