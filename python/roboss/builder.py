@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike
 
 from .errors import ArgumentError
 from .names import unknown
+from .outputs import check_output
 from .sdf_elements import checked_name, positive, put, put_pose, rgba, unit_vector, vector
 from .shapes import Shape, box, capsule, cylinder, plane, sphere
 from .world import World, load
@@ -137,7 +138,9 @@ class WorldBuilder:
         return ET.tostring(root, encoding="unicode", xml_declaration=False) + "\n"
 
     def save(self, path: Union[str, os.PathLike]) -> None:
-        """Writes `to_sdf` to a file, for `roboss run` and others. Raises OSError where that fails."""
+        """Writes `to_sdf` to a file, for `roboss run` and others. Raises OSError where that fails, ArgumentError
+        where it would replace a file of another kind."""
+        check_output(path, "world")
         Path(path).write_text(self.to_sdf(), encoding="utf-8")
 
     def build(self, **options: Any) -> World:

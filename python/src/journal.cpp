@@ -8,6 +8,7 @@
 #include <cstdio>
 
 #include "bindings.h"
+#include "roboss/core/output_check.h"
 #include "roboss/journal/journal.h"
 #include "simulation.h"
 
@@ -33,17 +34,16 @@ LocalSave save_of(const Model& model, const SavedRun& run) {
     return save;
 }
 
-/// The simulation at a tick of the branch, with the branch's later orders waiting if `follow`.
+/// The simulation at a tick of the branch, with its later orders waiting if `follow`: those that apply before
+/// `until`, where another branch may go on.
 Result<std::shared_ptr<LocalRun>> run_at(const Journal& journal, const Branch& branch,
-                                         const std::shared_ptr<const Model>& model, Tick tick, bool follow,
-                                         unsigned threads) {
-    const std::vector<CheckpointEntry> entries = journal.checkpoints(branch);
-    const auto above = std::ranges::upper_bound(entries, tick, {}, &CheckpointEntry::tick);
-    if (above == entries.begin())
+                                         const std::shared_ptr<const Model>& model, Tick tick, Tick until,
+                                         bool follow, unsigned threads) {
+    const CheckpointEntry* before = journal.checkpoint_before(branch, tick);
+    if (before == nullptr)
         return Error{"there is no checkpoint before tick " + std::to_string(tick), "give a later time",
-                     "no-checkpoint"};
-    Result<SavedRun> saved =
-        journal.run_from(branch, *std::prev(above), *model, std::max(tick, branch.committed));
+                     "no-such-time"};
+    Result<SavedRun> saved = journal.run_from(branch, *before, *model, std::max(tick, until));
     if (!saved) return saved.error();
     Result<std::unique_ptr<LocalRun>> run =
         LocalRun::create(model, {.threads = threads, .seed = saved.value().seed});
@@ -56,13 +56,28 @@ Result<std::shared_ptr<LocalRun>> run_at(const Journal& journal, const Branch& b
 }
 
 std::shared_ptr<Simulation> at(const Journal& journal, BranchId id, const std::shared_ptr<const Model>& model,
-                               Tick tick, bool follow, unsigned threads) {
+                               Tick tick, Tick until, bool follow, unsigned threads) {
     const Branch branch = value_or_raise(journal.branch(id), "JournalError");
     Result<std::shared_ptr<LocalRun>> run = [&] {
         const nb::gil_scoped_release release;
-        return run_at(journal, branch, model, tick, follow, threads);
+        return run_at(journal, branch, model, tick, until, follow, threads);
     }();
     return std::make_shared<Simulation>(model, value_or_raise(std::move(run), "JournalError"));
+}
+
+/// (branch, from, until) of each part of the lineage. The last ends where the branch is committed.
+nb::list lineage(const Journal& journal, BranchId id) {
+    const Branch branch = value_or_raise(journal.branch(id), "JournalError");
+    nb::list all;
+    for (const Lineage::Part& part : journal.lineage(branch).parts())
+        all.append(nb::make_tuple(part.branch, part.from, part.branch == id ? branch.committed : part.until));
+    return all;
+}
+
+/// The branch of the lineage that holds the tick.
+BranchId holder(const Journal& journal, BranchId id, Tick tick, double dt_s) {
+    const Branch branch = value_or_raise(journal.branch(id), "JournalError");
+    return value_or_raise(journal.holder(journal.lineage(branch), tick, dt_s), "JournalError").id;
 }
 
 nb::list checkpoints(const Journal& journal, BranchId id) {
@@ -95,8 +110,19 @@ void bind_journal(nb::module_& module) {
             },
             nb::arg("branch"))
         .def("checkpoints", &checkpoints, nb::arg("branch"))
-        .def("at", &at, nb::arg("branch"), nb::arg("model"), nb::arg("tick"), nb::arg("follow"),
-             nb::arg("threads"));
+        .def("at", &at, nb::arg("branch"), nb::arg("model"), nb::arg("tick"), nb::arg("until"),
+             nb::arg("follow"), nb::arg("threads"))
+        .def("lineage", &lineage, nb::arg("branch"))
+        .def("holder", &holder, nb::arg("branch"), nb::arg("tick"), nb::arg("dt"));
+    module.def(
+        "check_output",
+        [](const std::string& path, const std::string& kind, const std::vector<std::string>& reads) {
+            OutputCheck check;
+            for (const std::string& read : reads) check.reads(read);
+            check.writes("the output", path, kind);
+            if (const Result<> fine = check.check(); !fine) raise("ArgumentError", fine.error());
+        },
+        nb::arg("path"), nb::arg("kind"), nb::arg("reads"));
     module.def(
         "open_journal",
         [](const std::string& path) {

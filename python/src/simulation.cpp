@@ -161,6 +161,7 @@ void bind_simulation(nb::module_& module) {
             },
             nb::arg("looks"), nb::arg("threads"))
         .def("turn_view", &Simulation::turn_view)
+        .def("retire", &Simulation::retire)
         .def("spawn", &spawn, nb::arg("addition"), nb::arg("names"), nb::arg("poses"))
         .def("remove", &remove, nb::arg("names"))
         .def(

@@ -1,12 +1,15 @@
 """Recordings of `roboss run`, at any time and to the last bit."""
 import json
+import os
 import subprocess
+import time
 
 import numpy as np
 import pytest
 
 import roboss
 from conftest import REPOSITORY
+from roboss.outputs import check_output
 
 ROBOSS = REPOSITORY / "build" / "release" / "bin" / "roboss"
 WORLD = [REPOSITORY / "worlds/crossroads.sdf", "--orders", REPOSITORY / "worlds/crossroads.jsonl"]
@@ -65,3 +68,72 @@ def test_errors_name_file_and_time(recorded, tmp_path):
     for name in ("no.journal", "missing.journal"):
         with pytest.raises(roboss.JournalError, match=name):
             roboss.Journal(tmp_path / name)
+
+
+@pytest.fixture(scope="module")
+def branched(tmp_path_factory):
+    """A journal of 1 s, 1000 ticks; at 0.4 s a car went, at 0.7 s the run was taken back to 0.5 s."""
+    folder = tmp_path_factory.mktemp("branched")
+    path, name = folder / "branched.journal", f"branched_{os.getpid()}"
+    command = [ROBOSS, "run", REPOSITORY / "worlds/crossroads.sdf", "--headless", "--quiet", "--paused", "--simulation", name,
+               "--journal", path]
+    with subprocess.Popen(list(map(str, command)), stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL) as process:
+        def ask(*words):
+            done = subprocess.run([ROBOSS, "control", "--simulation", name, "--patience", "30", "--json", *map(str, words)],
+                                  capture_output=True, text=True, check=True)
+            return json.loads(done.stdout)
+
+        def to(tick):
+            ask("step", tick - ask("status")["tick"])
+            while ask("status")["tick"] < tick:
+                time.sleep(0.01)
+        to(200)
+        ask("remove", "car_3")
+        to(350)
+        ask("rewind", 0.5)
+        to(500)
+        ask("quit")
+    return path
+
+
+def test_goes_through_branches_with_the_robots_of_then(branched):
+    journal = roboss.Journal(branched)
+    assert [number for number, _, _ in journal.lineage()] == [1, 2, 3]
+    assert journal.times() == (0, pytest.approx(1.0))
+    assert "car_3" in journal.at(0.2).world.robots and "car_3" not in journal.at(0.4).world.robots
+    counts = [len(sim.world.robots) for sim in journal.play(np.arange(0, 1.01, 0.1))]
+    assert counts == [counts[0]] * 4 + [counts[0] - 1] * 7
+    sim = journal.at(0.1)
+    before = sim.robots("car_*")
+    sim.step(500 - sim.tick)
+    assert sim.state_hash == journal.branches[-1].last_hash and "car_3" not in sim.world.robots
+    with pytest.raises(roboss.StateError) as error:
+        before.pose
+    assert error.value.code == "changed-world"
+
+
+def test_refuses_what_the_branch_does_not_have_and_names_who_does(branched):
+    journal = roboss.Journal(branched)
+    with pytest.raises(roboss.JournalError) as error:
+        journal.at(0.9, branch=2)
+    assert error.value.code == "no-such-time" and "branch 3 has it" in str(error.value)
+    sim = journal.at(0.3)
+    sim.robots("car_1").twist = np.array([[0, 0, 3.0, 0, 0, 0]])
+    with pytest.raises(roboss.StateError) as error:
+        sim.step(300)
+    assert error.value.code == "own-way"
+
+
+def test_outputs_replace_nothing_else(tmp_path):
+    notes = tmp_path / "notes.html"
+    notes.write_text("remember")
+    world = tmp_path / "world.sdf"
+    roboss.WorldBuilder("w").save(world)
+    roboss.WorldBuilder("w").save(world)  # an older one of the same kind
+    with pytest.raises(roboss.ArgumentError) as error:
+        roboss.WorldBuilder("w").save(notes)
+    assert error.value.code == "other-kind" and notes.read_text() == "remember"
+    (tmp_path / "link.png").symlink_to(world)
+    with pytest.raises(roboss.ArgumentError) as error:
+        check_output(tmp_path / "link.png", reads=[world])
+    assert error.value.code == "output-is-input"

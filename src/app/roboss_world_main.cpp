@@ -14,6 +14,7 @@
 #include "app/worlds/joint_grid_world.h"
 #include "app/worlds/soccer_world.h"
 #include "app/worlds/spider_world.h"
+#include "core/output_check.h"
 
 namespace {
 
@@ -23,6 +24,12 @@ int write_world(const std::string& text, const std::string& file) {
         std::cout << text << std::flush;
         if (std::cout) return 0;
     } else {
+        roboss::OutputCheck check;
+        check.writes("--output", file, "world");
+        if (const roboss::Result<> fine = check.check(); !fine) {
+            std::cerr << "roboss-world: " << fine.error().text() << "\n";
+            return 3;
+        }
         std::ofstream out(file, std::ios::binary);
         out << text << std::flush;
         if (out) return 0;

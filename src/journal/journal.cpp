@@ -2,13 +2,12 @@
 #include "journal/journal.h"
 
 #include <algorithm>
-#include <bit>
-#include <charconv>
 #include <filesystem>
 #include <limits>
 #include <utility>
 
 #include "core/hash.h"
+#include "journal/columns.h"
 #include "journal/journal_format.h"
 #include "wire/model_codec.h"
 
@@ -16,45 +15,13 @@ namespace roboss {
 
 namespace {
 
-constexpr const char* kAnother = "take another copy of the file, or start without it";
 constexpr std::uintmax_t kLookedThrough_bytes = 64u
                                                 << 20;  // a file up to this size is always checked completely
-
-/// The columns of a row, by type; remembers a fault if one is not as expected.
-class Columns {
-  public:
-    explicit Columns(const Row& row) : row_(row) {}
-    template <class T>
-    T get() {
-        if (at_ < row_.size())
-            if (const T* value = std::get_if<T>(&row_[at_++])) return *value;
-        good_ = false;
-        return T{};
-    }
-    std::int64_t number() { return get<std::int64_t>(); }
-    std::uint64_t hash() {
-        const auto text = get<std::string>();
-        std::uint64_t value = 0;
-        const auto end = text.data() + text.size();
-        if (text.size() != 16 || std::from_chars(text.data(), end, value, 16).ptr != end) good_ = false;
-        return value;
-    }
-    bool good() const { return good_; }
-
-  private:
-    const Row& row_;
-    std::size_t at_ = 0;
-    bool good_ = true;
-};
-
-std::string at_tick(Tick tick) {
-    return "at tick " + std::to_string(tick);
-}
 
 }  // namespace
 
 Error Journal::damaged(const std::string& what) const {
-    return {path_ + " is damaged: " + what, kAnother, "journal-damaged"};
+    return {path_ + " is damaged: " + what, kAnotherCopy, "journal-damaged"};
 }
 
 bool Journal::is_small(const std::string& path) {
@@ -88,6 +55,8 @@ Result<Journal> Journal::open_as(const std::string& path, bool look_through) {
             return journal.damaged("it is truncated or was changed");
     }
     if (Result<> read = journal.refresh(); !read) return read.error();
+    if (look_through)
+        if (Result<> good = journal.check_older_checkpoints(); !good) return good.error();
     return journal;
 }
 
@@ -112,16 +81,25 @@ Result<> Journal::refresh() {
     return read;
 }
 
+Error Journal::changed(const std::string& row, BranchId branch) const {
+    return damaged(row + " of branch " + std::to_string(branch) + " was changed");
+}
+
 Result<> Journal::read_tables() {
     for (Result<> (Journal::*read)() :
          {&Journal::read_meta, &Journal::read_branches, &Journal::read_checkpoint_entries,
           &Journal::read_log_bases, &Journal::read_log_heads, &Journal::read_bookmarks})
         if (Result<> done = (this->*read)(); !done) return done;
-    return Ok{};
+    return check_serials();
 }
 
 bool Journal::has_bases() const {
     return format_ >= kFirstPrunableFormat;
+}
+
+/// Its rows can be checked without their blobs.
+bool Journal::is_sealed() const {
+    return format_ >= kFirstSealedFormat;
 }
 
 const Branch* Journal::find(BranchId id) const {
@@ -132,167 +110,6 @@ const Branch* Journal::find(BranchId id) const {
 
 Branch* Journal::find_own(BranchId id) {
     return const_cast<Branch*>(std::as_const(*this).find(id));
-}
-
-Result<> Journal::read_meta() {
-    Result<std::vector<Row>> rows = db_->select("SELECT key, value FROM meta");
-    if (!rows)
-        return Error{
-            path_ + " is not a checkpoint or journal of RoBOSS, or is truncated: " + rows.error().message,
-            kAnother, "not-a-journal"};
-    std::int64_t format = 0;
-    pruned_world_.reset();
-    for (const Row& row : rows.value()) {
-        const auto* key = std::get_if<std::string>(&row[0]);
-        if (key != nullptr && *key == "format" && std::holds_alternative<std::int64_t>(row[1]))
-            format = std::get<std::int64_t>(row[1]);
-        if (key != nullptr && *key == "version" && std::holds_alternative<std::string>(row[1]))
-            version_ = std::get<std::string>(row[1]);
-        if (key != nullptr && *key == kMetaWorld) {
-            Columns c(row);
-            (void)c.get<std::string>();
-            pruned_world_ = c.hash();
-            if (!c.good()) return damaged("the hash of its world was changed");
-        }
-    }
-    if (format == 0) return damaged("its format is missing");
-    format_ = format;
-    if (format < kOldestJournalFormat || format > kJournalFormat)
-        return Error{path_ + " has journal format " + std::to_string(format) + " (written by RoBOSS " +
-                         (version_.empty() ? "of long ago" : version_) + "), this program reads " +
-                         std::to_string(kJournalFormat),
-                     "use the version of RoBOSS that wrote it", "journal-format"};
-    return Ok{};
-}
-
-Result<> Journal::read_branches() {
-    Result<std::vector<Row>> rows = db_->select(
-        "SELECT id, parent, tick, model, seed, world_file, reason, row_hash FROM branches ORDER BY id");
-    if (!rows) return damaged(rows.error().message);
-    branches_.clear();
-    for (const Row& row : rows.value()) {
-        Columns c(row);
-        Branch b;
-        b.id = c.number(), b.parent = c.number(), b.tick = c.number();
-        b.model_hash = c.hash();
-        b.seed = std::bit_cast<std::uint64_t>(c.number());
-        b.world_file = c.get<std::string>(), b.reason = c.get<std::string>();
-        const std::uint64_t check = c.hash();
-        if (!c.good() || check != check_of(b))
-            return damaged("the row of branch " + std::to_string(b.id) + " was changed");
-        const bool in_order = branches_.empty() || b.id == branches_.back().id + 1 || has_bases();
-        if (b.id < 1 || !in_order || b.parent < 0 || b.parent >= b.id || b.tick < 0)
-            return damaged("its branches do not make a tree");
-        b.committed = b.end = b.tick;
-        branches_.push_back(std::move(b));
-    }
-    if (branches_.empty()) return Error{path_ + " is empty: its run never began", kAnother, "journal-empty"};
-    return Ok{};
-}
-
-Result<> Journal::read_checkpoint_entries() {
-    Result<std::vector<Row>> rows = db_->select(
-        "SELECT c.branch, c.tick, c.state_hash, coalesce(length(c.memory) + length(s.bytes), 'none') FROM "
-        "checkpoints c LEFT JOIN states s ON s.hash = c.states ORDER BY c.branch, c.tick");
-    if (!rows) return damaged(rows.error().message);
-    checkpoints_.clear();
-    for (const Row& row : rows.value()) {
-        Columns c(row);
-        CheckpointEntry entry;
-        entry.branch = c.number(), entry.tick = c.number();
-        entry.hash = c.hash();
-        const std::int64_t bytes = c.number();
-        Branch* holder = find_own(entry.branch);
-        if (!c.good() || holder == nullptr || entry.tick < holder->tick)
-            return damaged("a checkpoint belongs to no branch");
-        Branch& b = *holder;
-        if (b.checkpoints++ == 0) b.first = entry.tick;
-        b.bytes += static_cast<std::uint64_t>(bytes);
-        if (entry.tick >= b.committed) b.committed = entry.tick, b.hash = entry.hash;
-        b.end = std::max(b.end, entry.tick);
-        checkpoints_.push_back(entry);
-    }
-    for (const Branch& b : branches_)
-        if (b.checkpoints == 0) return damaged("branch " + std::to_string(b.id) + " has no checkpoint");
-    return Ok{};
-}
-
-/// What stands for the rows that were pruned.
-Result<> Journal::read_log_bases() {
-    std::erase_if(heads_, [this](const auto& head) { return find(head.first) == nullptr; });
-    if (!has_bases()) return Ok{};
-    Result<std::vector<Row>> rows = db_->select(kSelectBases);
-    if (!rows) return damaged(rows.error().message);
-    for (const Row& values : rows.value()) {
-        Columns c(values);
-        LogBase base;
-        base.branch = c.number(), base.serial = c.number();
-        base.planned = c.number(), base.committed = c.number(), base.hash = c.hash(), base.chain = c.hash();
-        base.bytes = c.get<Blob>();
-        const std::uint64_t check = c.hash();
-        if (!c.good() || find(base.branch) == nullptr || check != check_of(base))
-            return damaged("the beginning of the log of branch " + std::to_string(base.branch) +
-                           " was changed");
-        LogHead& head = heads_[base.branch];
-        if (head.tail.serial >= base.serial) continue;
-        head.tail = {base.serial, base.chain};
-        if (base.committed >= head.committed && base.hash != 0)
-            head.committed = base.committed, head.hash = base.hash;
-        head.end = std::max({head.end, base.planned, base.committed});
-    }
-    return Ok{};
-}
-
-/// Only the youngest branch grows.
-Result<> Journal::read_log_heads() {
-    Result<std::vector<Row>> rows = db_->select(
-        "SELECT branch, serial, planned, committed, state_hash, orders, length(entries), chain FROM batches "
-        "WHERE branch > ? OR (branch = ? AND serial > ?) ORDER BY branch, serial",
-        {read_branch_, read_branch_, read_serial_});
-    if (!rows) return damaged(rows.error().message);
-    for (const Row& row : rows.value()) {
-        Columns c(row);
-        const BranchId id = c.number();
-        const std::int64_t serial = c.number(), planned = c.number(), committed = c.number();
-        const std::uint64_t hash = c.hash();
-        const std::int64_t orders = c.number(), bytes = c.number();
-        const std::uint64_t chain = c.hash();
-        if (!c.good() || find(id) == nullptr) return damaged("a row of its log belongs to no branch");
-        LogHead& head = heads_[id];
-        read_branch_ = id, read_serial_ = serial;
-        if (serial != ++head.tail.serial)
-            return damaged("row " + std::to_string(head.tail.serial) + " of its log is missing");
-        head.tail.chain = chain;
-        head.orders += static_cast<std::size_t>(orders);
-        head.bytes += static_cast<std::uint64_t>(bytes);
-        if (committed >= head.committed && hash != 0) head.committed = committed, head.hash = hash;
-        head.end = std::max({head.end, planned, committed});
-    }
-    for (const auto& [id, head] : heads_) {
-        Branch& b = *find_own(id);
-        b.orders = head.orders;
-        b.bytes += head.bytes;
-        if (head.committed >= b.committed && head.hash != 0) b.committed = head.committed, b.hash = head.hash;
-        b.end = std::max(b.end, head.end);
-    }
-    return Ok{};
-}
-
-Result<> Journal::read_bookmarks() {
-    bookmarks_.clear();
-    if (!has_bases()) return Ok{};
-    Result<std::vector<Row>> rows = db_->select(kSelectBookmarks);
-    if (!rows) return damaged(rows.error().message);
-    for (const Row& values : rows.value()) {
-        Columns c(values);
-        Bookmark mark;
-        mark.id = c.number(), mark.branch = c.number(), mark.tick = c.number();
-        mark.name = c.get<std::string>();
-        if (c.hash() != check_of(mark) || !c.good())
-            return damaged("bookmark " + std::to_string(mark.id) + " was changed");
-        if (find(mark.branch) != nullptr) bookmarks_.push_back(std::move(mark));
-    }
-    return Ok{};
 }
 
 Result<Branch> Journal::branch(std::optional<BranchId> id) const {
@@ -307,39 +124,48 @@ Result<Branch> Journal::branch(std::optional<BranchId> id) const {
                  "`roboss journal info " + path_ + "` shows them", "no-branch"};
 }
 
-Branch Journal::holder_of(Branch branch, Tick tick) const {
-    while (tick < branch.tick) {
-        const Branch* parent = find(branch.parent);
-        if (parent == nullptr) break;
-        branch = *parent;
-    }
-    return branch;
+std::vector<BranchSpan> Journal::spans() const {
+    std::vector<BranchSpan> spans;
+    spans.reserve(branches_.size());
+    for (const Branch& b : branches_) spans.push_back(b.span());
+    return spans;
 }
 
-Tick Journal::first_tick(const Branch& branch) const {
-    Tick first = branch.first;
-    for (const Branch* b = &branch; b->first <= b->tick;) {
-        b = find(b->parent);
-        if (b == nullptr || b->first > first) break;
-        first = b->first;
-    }
-    return first;
+Result<Branch> Journal::holder(const Lineage& lineage, Tick tick, double dt_s) const {
+    if (const Lineage::Part* part = lineage.at(tick)) return *find(part->branch);
+    const auto at = [dt_s](Tick t) { return time_text(t, dt_s); };
+    const Branch& named = *find(lineage.branch());
+    std::string remedy = "give a time that it has";
+    for (const Branch& other : branches_)
+        if (this->lineage(other).at(tick) != nullptr)
+            remedy = "branch " + std::to_string(other.id) + " has it: " + path_ + "#" +
+                     std::to_string(other.id) + "@" + at(tick).substr(0, at(tick).size() - 2);
+    const Branch* first = find(lineage.parts().front().branch);
+    if (tick < lineage.first() && (first->first > first->tick || first->parent != 0))
+        remedy += "; earlier ones were pruned (--journal-keep)";
+    return Error{path_ + " has nothing at " + at(tick) + " (tick " + std::to_string(tick) + ") of branch " +
+                     std::to_string(named.id) + ", it has " + at(lineage.first()) + " to " +
+                     at(lineage.last()) + " (ticks " + std::to_string(lineage.first()) + " to " +
+                     std::to_string(lineage.last()) + ")",
+                 remedy, "no-such-time"};
 }
 
 std::uint64_t Journal::world_hash(const Branch& branch) const {
-    const Branch root = holder_of(branch, -1);
-    return root.parent == 0 ? root.model_hash : pruned_world_.value_or(root.model_hash);
+    const Branch* root = find(branch.id);
+    while (const Branch* parent = find(root->parent)) root = parent;
+    return world_.value_or(root->model_hash);
 }
 
 Result<std::shared_ptr<const Model>> Journal::model(const Branch& branch) const {
     Result<std::vector<Row>> rows =
         db_->select("SELECT bytes, bytes_hash FROM models WHERE hash = ?", {to_hex(branch.model_hash)});
     if (!rows) return damaged(rows.error().message);
-    if (rows.value().size() != 1) return damaged("a Model is missing");
+    if (rows.value().size() != 1)
+        return damaged("the Model of branch " + std::to_string(branch.id) + " is missing");
     Columns c(rows.value()[0]);
     const Blob bytes = c.get<Blob>();
     const std::uint64_t hash = c.hash();
-    if (!c.good() || hash_of_bytes(bytes) != hash) return damaged("a Model was changed");
+    if (!c.good() || hash_of_bytes(bytes) != hash) return changed("the Model", branch.id);
     Result<std::shared_ptr<const Model>> model = decode_model(bytes);
     if (!model) return damaged(model.error().message);
     if (model.value()->hash != branch.model_hash) return damaged("a Model does not have its recorded hash");
@@ -353,21 +179,45 @@ std::vector<CheckpointEntry> Journal::checkpoints(const Branch& branch) const {
     return entries;
 }
 
-Result<StoredCheckpoint> Journal::checkpoint(const CheckpointEntry& entry, const Model& model) const {
+const CheckpointEntry* Journal::checkpoint_before(const Branch& branch, Tick tick) const {
+    const auto above = std::ranges::upper_bound(
+        checkpoints_, std::pair(branch.id, tick), {},
+        [](const CheckpointEntry& entry) { return std::pair(entry.branch, entry.tick); });
+    if (above == checkpoints_.begin() || std::prev(above)->branch != branch.id) return nullptr;
+    return &*std::prev(above);
+}
+
+/// Checked against the hashes in the row.
+Result<Journal::CheckpointBlobs> Journal::checkpoint_blobs(const CheckpointEntry& entry) const {
     Result<std::vector<Row>> rows = db_->select(
-        "SELECT c.memory, s.bytes, c.row_hash FROM checkpoints c JOIN states s ON s.hash = "
-        "c.states WHERE c.branch = ? AND c.tick = ?",
+        std::string("SELECT c.memory, s.bytes, c.states, ") + (is_sealed() ? "c.memory_hash" : "NULL") +
+            ", c.row_hash FROM checkpoints c JOIN states s ON s.hash = c.states WHERE c.branch = ? AND "
+            "c.tick = ?",
         {entry.branch, entry.tick});
     const std::string name = "the checkpoint " + at_tick(entry.tick);
     if (!rows) return damaged(rows.error().message);
-    if (rows.value().size() != 1) return damaged(name + " is missing");
+    if (rows.value().size() != 1)
+        return damaged(name + " of branch " + std::to_string(entry.branch) + " is missing");
     Columns c(rows.value()[0]);
-    const Blob memory = c.get<Blob>(), states = c.get<Blob>();
+    CheckpointBlobs blobs;
+    blobs.memory = c.get<Blob>(), blobs.states = c.get<Blob>();
+    const std::uint64_t states_hash = c.hash();
+    const std::optional<std::uint64_t> memory_hash = c.hash_or_null();
     const std::uint64_t check = c.hash();
-    if (!c.good() || check != check_of(entry, memory, states)) return damaged(name + " was changed");
-    Result<std::vector<RobotState>> decoded = decode_states(states, model);
+    const bool right = memory_hash ? hash_of_bytes(blobs.memory) == *memory_hash &&
+                                         hash_of_bytes(blobs.states) == states_hash
+                                   : check == check_of(entry, blobs.memory, blobs.states);
+    if (!c.good() || !right) return changed(name, entry.branch);
+    return blobs;
+}
+
+Result<StoredCheckpoint> Journal::checkpoint(const CheckpointEntry& entry, const Model& model) const {
+    Result<CheckpointBlobs> blobs = checkpoint_blobs(entry);
+    if (!blobs) return blobs.error();
+    const std::string name = "the checkpoint " + at_tick(entry.tick);
+    Result<std::vector<RobotState>> decoded = decode_states(blobs.value().states, model);
     if (!decoded) return damaged(name + ": " + decoded.error().message);
-    Result<ClientMemory> remembered = decode_memory(memory);
+    Result<ClientMemory> remembered = decode_memory(blobs.value().memory);
     if (!remembered) return damaged(name + ": " + remembered.error().message);
     if (state_hash_of(model, entry.tick, decoded.value()) != entry.hash)
         return damaged(name + " does not have the hash that was saved");
@@ -378,6 +228,7 @@ Result<LogBatch> Journal::log(const Branch& branch, Tick from, Tick until) const
     Result<std::vector<Row>> rows = db_->select(
         "SELECT b.serial, b.planned, b.committed, b.state_hash, b.low, b.high, b.orders, b.entries, "
         "b.chain, " +
+            std::string(is_sealed() ? "b.entries_hash, " : "NULL, ") +
             std::string(has_bases() ? "coalesce(a.chain, p.chain, '0000000000000000') "
                                     : "coalesce(a.chain, '0000000000000000') ") +
             "FROM batches b LEFT JOIN batches a ON a.branch = b.branch AND a.serial = b.serial - 1 " +
@@ -395,9 +246,13 @@ Result<LogBatch> Journal::log(const Branch& branch, Tick from, Tick until) const
         row.hash = c.hash();
         row.low = c.number(), row.high = c.number(), row.orders = c.number();
         row.bytes = c.get<Blob>();
-        const std::uint64_t chain = c.hash(), before = c.hash();
+        const std::uint64_t chain = c.hash();
+        row.bytes_hash = c.hash_or_null();
+        const std::uint64_t before = c.hash();
         const std::string name = "row " + std::to_string(row.serial) + " of the log";
-        if (!c.good() || chain_of(before, row) != chain) return damaged(name + " was changed");
+        if (!c.good() || chain_of(before, row) != chain ||
+            (row.bytes_hash && *row.bytes_hash != hash_of_bytes(row.bytes)))
+            return changed(name, branch.id);
         Result<LogBatch> entries = decode_batch(row.bytes);
         if (!entries) return damaged(name + ": " + entries.error().message);
         log.append(std::move(entries).value());
@@ -428,22 +283,14 @@ Result<> Journal::add_base(const Branch& branch, LogBatch& log) const {
 }
 
 Result<SavedRun> Journal::run_at(const Branch& branch, const Model& model, Tick tick) const {
-    const std::vector<CheckpointEntry> entries = checkpoints(branch);
-    const auto above = std::upper_bound(entries.begin(), entries.end(), tick,
-                                        [](Tick t, const CheckpointEntry& p) { return t < p.tick; });
-    const auto time = [&](Tick t) { return std::to_string(static_cast<double>(t) * model.dt_s) + " s"; };
-    if (above == entries.begin() || tick > branch.end) {
-        const Tick first = entries.empty() ? branch.tick : entries.front().tick;
-        const bool pruned = first > branch.tick || (branch.parent != 0 && find(branch.parent) == nullptr);
-        return Error{path_ + " has nothing at " + time(tick) + " (tick " + std::to_string(tick) +
-                         ") of branch " + std::to_string(branch.id) + ", it has " + time(first) + " to " +
-                         time(branch.end) + " (ticks " + std::to_string(first) + " to " +
-                         std::to_string(branch.end) + ")",
-                     pruned ? "give a time that it has; earlier ones were pruned (--journal-keep)"
-                            : "give a time that it has",
-                     "no-such-time"};
+    const CheckpointEntry* before = checkpoint_before(branch, tick);
+    if (before == nullptr || tick > branch.end) {
+        const std::vector<BranchSpan> alone{branch.span()};
+        Result<Branch> none = holder(Lineage::of(alone, branch.id), tick, model.dt_s);
+        if (!none) return none.error();
+        return damaged("branch " + std::to_string(branch.id) + " has no checkpoint");
     }
-    return run_from(branch, *std::prev(above), model, tick);
+    return run_from(branch, *before, model, tick);
 }
 
 Result<SavedRun> Journal::run_from(const Branch& branch, const CheckpointEntry& entry, const Model& model,
@@ -464,6 +311,7 @@ Result<SavedRun> Journal::run_with(const Branch& branch, const CheckpointEntry& 
     if (!entries) return entries.error();
     SavedRun run;
     run.world_file = branch.world_file;
+    if (const std::uint64_t world = world_hash(branch); world != branch.model_hash) run.world_hash = world;
     run.seed = branch.seed;
     run.tick = entry.tick;
     run.states = std::move(stored.value().states);
@@ -507,7 +355,7 @@ Result<> Journal::inspect() const {
         constexpr Tick kAll = std::numeric_limits<Tick>::max();
         if (Result<LogBatch> entries = log(b, -kAll, kAll); !entries) return entries.error();
     }
-    return Ok{};
+    return check_tree();
 }
 
 Result<> check_world(const Journal& journal, const Branch& branch, const Model& model) {

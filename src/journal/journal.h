@@ -13,11 +13,10 @@
 #include <vector>
 
 #include "journal/database.h"
+#include "journal/lineage.h"
 #include "journal/saved_run.h"
 
 namespace roboss {
-
-using BranchId = std::int64_t;  // 1, 2, 3 ...; 0: none
 
 struct Branch {
     BranchId id = 0, parent = 0;
@@ -30,6 +29,7 @@ struct Branch {
     std::size_t checkpoints = 0, orders = 0;
     std::uint64_t bytes = 0;  // of checkpoints and log
     Tick first = 0;           // its first checkpoint: later than `tick` once the branch is pruned
+    BranchSpan span() const { return {id, parent, tick, first, end, model_hash, reason}; }
 };
 
 /// A named moment.
@@ -73,17 +73,20 @@ class Journal {
     Result<Branch> branch(std::optional<BranchId> id = {}) const;
     /// Null: the file does not have it.
     const Branch* find(BranchId id) const;
-    /// The branch, or an ancestor of it, that has this tick. The oldest ancestor that is left if none has.
-    Branch holder_of(Branch branch, Tick tick) const;
-    /// The first tick of this branch that can be restored: of the oldest ancestor to which nothing is
-    /// missing.
-    Tick first_tick(const Branch& branch) const;
-    /// Hash of the Model of the world file with which the history of the branch began, pruned or not.
+    std::vector<BranchSpan> spans() const;
+    Lineage lineage(const Branch& branch) const { return Lineage::of(spans(), branch.id); }
+    /// The branch of this lineage that holds the tick. An Error, "no-such-time", says which ticks the lineage
+    /// has, and which branch has this one.
+    Result<Branch> holder(const Lineage& lineage, Tick tick, double dt_s) const;
+    /// Hash of the Model of the world file with which the history of the branch began, pruned or not; also
+    /// that of a saved run whose robots had been changed.
     std::uint64_t world_hash(const Branch& branch) const;
     Result<std::shared_ptr<const Model>> model(const Branch& branch) const;
 
     /// Those of the branch, ascending by tick.
     std::vector<CheckpointEntry> checkpoints(const Branch& branch) const;
+    /// The last one of the branch at or before the tick; null: there is none.
+    const CheckpointEntry* checkpoint_before(const Branch& branch, Tick tick) const;
     Result<StoredCheckpoint> checkpoint(const CheckpointEntry& entry, const Model& model) const;
     /// Orders that apply at `from` or later and were given before `until`, in canonical order; replies for
     /// observations, and notes, of the ticks between; all Clients.
@@ -121,10 +124,16 @@ class Journal {
         std::uint64_t hash = 0, bytes = 0;
         std::size_t orders = 0;
     };
+    struct CheckpointBlobs {
+        Blob memory, states;
+    };
+    Result<CheckpointBlobs> checkpoint_blobs(const CheckpointEntry& entry) const;
     static Result<Journal> open_as(const std::string& path, bool look_through);
     Error damaged(const std::string& what) const;
     bool has_whole_pages() const;
     bool has_bases() const;
+    bool is_sealed() const;
+    Error changed(const std::string& row, BranchId branch) const;
     Result<> read_meta();
     Result<> read_tables();
     Result<> read_branches();
@@ -132,15 +141,22 @@ class Journal {
     Result<> read_log_heads();
     Result<> read_checkpoint_entries();
     Result<> read_bookmarks();
+    Result<> check_serials() const;
+    Result<> check_older_checkpoints() const;
+    Result<> check_tree() const;
     Result<> add_base(const Branch& branch, LogBatch& log) const;
     Branch* find_own(BranchId id);
 
     std::string path_, version_;
     std::int64_t format_ = 0;
-    std::optional<std::uint64_t> pruned_world_;  // hash of the Model of a root branch that was pruned
+    std::optional<std::uint64_t>
+        world_;  // hash of the Model of the world file; none: that of the root branch
     std::optional<Database> db_;
     std::vector<Branch> branches_;
     std::vector<CheckpointEntry> checkpoints_;  // of all branches, by (branch, tick)
+    std::map<BranchId, std::int64_t>
+        last_serials_;                    // the last row of a log that a checkpoint was written with
+    bool has_older_checkpoints_ = false;  // whose rows can only be checked with their blobs
     std::map<BranchId, LogHead> heads_;
     BranchId read_branch_ = 0;  // up to this row of this branch the log has been read
     std::int64_t read_serial_ = 0;

@@ -17,16 +17,20 @@ const char* const kJournalTables =
     "CREATE TABLE branches(id INTEGER PRIMARY KEY, parent INTEGER, tick INTEGER, model TEXT, seed INTEGER, "
     "world_file TEXT, reason TEXT, row_hash TEXT);"
     "CREATE TABLE states(hash TEXT PRIMARY KEY, bytes BLOB);"
-    "CREATE TABLE checkpoints(branch INTEGER, tick INTEGER, state_hash TEXT, memory BLOB, states TEXT, "
-    "row_hash TEXT, PRIMARY KEY(branch, tick));"
+    "CREATE TABLE checkpoints(branch INTEGER, tick INTEGER, state_hash TEXT, states TEXT, memory_hash TEXT, "
+    "serial INTEGER, row_hash TEXT, memory BLOB, PRIMARY KEY(branch, tick));"
     "CREATE TABLE batches(branch INTEGER, serial INTEGER, planned INTEGER, committed INTEGER, state_hash "
-    "TEXT, low INTEGER, high INTEGER, orders INTEGER, chain TEXT, entries BLOB, PRIMARY KEY(branch, "
-    "serial));";
+    "TEXT, low INTEGER, high INTEGER, orders INTEGER, entries_hash TEXT, chain TEXT, entries BLOB, PRIMARY "
+    "KEY(branch, serial));";
 
 const char* const kJournalTables5 =
     "CREATE TABLE bases(branch INTEGER PRIMARY KEY, serial INTEGER, planned INTEGER, committed INTEGER, "
     "state_hash TEXT, chain TEXT, entries BLOB, row_hash TEXT);"
     "CREATE TABLE bookmarks(id INTEGER PRIMARY KEY, branch INTEGER, tick INTEGER, name TEXT, row_hash TEXT);";
+
+const char* const kJournalColumns8 =
+    "ALTER TABLE checkpoints ADD COLUMN memory_hash TEXT; ALTER TABLE checkpoints ADD COLUMN serial INTEGER;"
+    "ALTER TABLE batches ADD COLUMN entries_hash TEXT;";
 
 std::string program_version() {
     return ROBOSS_VERSION " (wire " + std::to_string(kWireVersion) + ")";
@@ -55,6 +59,7 @@ BatchRow to_batch_row(const LogBatch& entries) {
     if (!entries.clients.empty()) include(std::numeric_limits<Tick>::min(), kAlways);
     row.orders = static_cast<std::int64_t>(entries.orders.size());
     row.bytes = encode(entries);
+    row.bytes_hash = hash_of_bytes(row.bytes);
     return row;
 }
 
@@ -65,7 +70,10 @@ std::uint64_t chain_of(std::uint64_t before, const BatchRow& row) {
          {row.branch, row.serial, row.planned, row.committed, row.low, row.high, row.orders})
         hash.add(static_cast<std::uint64_t>(n));
     hash.add(row.hash);
-    hash.add(text(row.bytes));
+    if (row.bytes_hash)
+        hash.add(*row.bytes_hash);
+    else
+        hash.add(text(row.bytes));
     return hash.value();
 }
 
@@ -76,6 +84,14 @@ std::uint64_t check_of(const Branch& b) {
     hash.add(b.seed);
     hash.add(std::string_view(b.world_file));
     hash.add(std::string_view(b.reason));
+    return hash.value();
+}
+
+std::uint64_t check_of(const CheckpointRow& row) {
+    Hash hash;
+    for (const std::int64_t n : {row.entry.branch, row.entry.tick, row.serial})
+        hash.add(static_cast<std::uint64_t>(n));
+    for (const std::uint64_t h : {row.entry.hash, row.states_hash, row.memory_hash}) hash.add(h);
     return hash.value();
 }
 
@@ -115,8 +131,10 @@ Row to_row(const Bookmark& mark) {
 }
 
 Row to_row(const BatchRow& row, std::uint64_t chain) {
-    return {row.branch, row.serial, row.planned, row.committed, to_hex(row.hash),
-            row.low,    row.high,   row.orders,  to_hex(chain), row.bytes};
+    return {row.branch,    row.serial,       row.planned,
+            row.committed, to_hex(row.hash), row.low,
+            row.high,      row.orders,       to_hex(row.bytes_hash.value()),
+            to_hex(chain), row.bytes};
 }
 
 Row to_row(const Branch& b) {
@@ -130,10 +148,16 @@ Row to_row(const Branch& b) {
             to_hex(check_of(b))};
 }
 
-Row to_row(const CheckpointEntry& entry, Blob memory, const Blob& states) {
-    const std::string check = to_hex(check_of(entry, memory, states));
-    return {entry.branch, entry.tick, to_hex(entry.hash), std::move(memory), to_hex(hash_of_bytes(states)),
-            check};
+Row to_row(const CheckpointEntry& entry, Blob memory, const Blob& states, std::int64_t serial) {
+    const CheckpointRow row{entry, hash_of_bytes(states), hash_of_bytes(memory), serial};
+    return {entry.branch,
+            entry.tick,
+            to_hex(entry.hash),
+            to_hex(row.states_hash),
+            to_hex(row.memory_hash),
+            serial,
+            to_hex(check_of(row)),
+            std::move(memory)};
 }
 
 Row states_row(Blob states) {
@@ -145,6 +169,29 @@ Row model_row(const Model& model) {
     Blob bytes = encode_model(model);
     const std::string hash = to_hex(hash_of_bytes(bytes));
     return {to_hex(model.hash), std::move(bytes), hash};
+}
+
+Result<std::uint64_t> check_of_meta(const Database& db) {
+    Result<std::vector<Row>> rows =
+        db.select("SELECT key, value FROM meta WHERE key != ? ORDER BY key", {std::string(kMetaCheck)});
+    if (!rows) return rows.error();
+    Hash hash;
+    for (const Row& row : rows.value())
+        for (const Value& value : row) {
+            hash.add(value.index());
+            if (const auto* number = std::get_if<std::int64_t>(&value))
+                hash.add(static_cast<std::uint64_t>(*number));
+            if (const auto* word = std::get_if<std::string>(&value)) hash.add(std::string_view(*word));
+            if (const auto* bytes = std::get_if<Blob>(&value)) hash.add(text(*bytes));
+        }
+    return hash.value();
+}
+
+Result<> seal_meta(Database& db) {
+    Result<std::uint64_t> check = check_of_meta(db);
+    if (!check) return check.error();
+    return db.insert("INSERT OR REPLACE INTO meta VALUES(?,?)",
+                     {{std::string(kMetaCheck), to_hex(check.value())}});
 }
 
 }  // namespace roboss

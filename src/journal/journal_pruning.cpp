@@ -109,6 +109,8 @@ Result<> drop(Database& db, const BranchSpan& branch) {
                                    {{std::string(kMetaWorld), to_hex(branch.model_hash)}});
             !r)
             return r;
+    if (branch.parent == 0)
+        if (Result<> r = seal_meta(db); !r) return r;
     return db.insert("DELETE FROM branches WHERE id = ?", {{branch.id}});
 }
 
@@ -135,23 +137,6 @@ std::uint64_t used_bytes(const Database& db) {
     const std::int64_t all = number(db, "PRAGMA page_count", {}).value_or(0);
     const std::int64_t free = number(db, "PRAGMA freelist_count", {}).value_or(0);
     return static_cast<std::uint64_t>(std::max<std::int64_t>(0, (all - free) * size));
-}
-
-Tick first_tick(const std::vector<BranchSpan>& spans, BranchId branch) {
-    const auto find = [&](BranchId id) -> const BranchSpan* {
-        const auto found =
-            std::find_if(spans.begin(), spans.end(), [id](const BranchSpan& span) { return span.id == id; });
-        return found == spans.end() ? nullptr : &*found;
-    };
-    const BranchSpan* span = find(branch);
-    if (span == nullptr) return 0;
-    Tick first = span->first;
-    while (span->first <= span->begin) {
-        span = find(span->parent);
-        if (span == nullptr || span->first > first) break;
-        first = span->first;
-    }
-    return first;
 }
 
 JournalPruning plan_pruning(const Database& db, const std::vector<BranchSpan>& spans, const JournalKeep& keep,

@@ -21,17 +21,6 @@ struct JournalKeep {
     bool limited() const { return ticks > 0 || bytes > 0; }
 };
 
-/// A branch of the file, and what of it can be restored.
-struct BranchSpan {
-    BranchId id = 0, parent = 0;
-    Tick begin = 0, first = 0, end = 0;  // where it left its parent; its first checkpoint; its last tick
-    std::uint64_t model_hash = 0;
-    std::string reason;
-};
-
-/// The first tick of the branch that can be restored, in it or in ancestors to which nothing is missing.
-Tick first_tick(const std::vector<BranchSpan>& spans, BranchId branch);
-
 /// What is to be removed, or was.
 struct JournalPruning {
     /// A branch that begins later than before.

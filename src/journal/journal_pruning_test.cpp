@@ -8,6 +8,7 @@
 #include <support/compiling.h>
 
 #include "journal/journal_writer.h"
+#include "journal/test_older_journal.h"
 
 namespace roboss::test {
 namespace {
@@ -76,7 +77,7 @@ TEST_F(PrunedJournals, KeepWhatIsYoungWithNamesAndOrdersThatAreStillNeeded) {
     EXPECT_EQ(branch.first, 150);
     EXPECT_EQ(branch.end, 200);
     EXPECT_EQ(branch.hash, 300u);
-    EXPECT_EQ(journal.value().first_tick(branch), 150);
+    EXPECT_EQ(journal.value().lineage(branch).first(), 150);
     const Result<SavedRun> run = journal.value().run_at(branch, *model_, 160);
     ASSERT_TRUE(run.ok()) << run.error().text();
     ASSERT_FALSE(run.value().orders.empty());
@@ -140,7 +141,7 @@ TEST_F(PrunedJournals, DropOldBranchesWithTheirModelsAndBookmarks) {
     EXPECT_TRUE(journal.value().bookmarks().empty()) << "50 lies before the first tick, 60";
     EXPECT_EQ(journal.value().world_hash(journal.value().branch().value()), model_->hash)
         << "the world of the branch that is gone";
-    EXPECT_EQ(journal.value().first_tick(journal.value().branch().value()),
+    EXPECT_EQ(journal.value().lineage(journal.value().branch().value()).first(),
               journal.value().branches().front().first);
 }
 
@@ -220,12 +221,7 @@ TEST_F(PrunedJournals, AndThoseOfTheFormatBeforeAreReadAndBroughtUpToDate) {
         begin(*writer, 0, 0, *model_);
         record(*writer, 0, 30);
         ASSERT_TRUE(writer->close().ok());
-        Result<Database> db = Database::open_write(file());
-        ASSERT_TRUE(db.ok());
-        ASSERT_TRUE(db.value()
-                        .run("DROP TABLE bases; DROP TABLE bookmarks; UPDATE meta SET value = 4 WHERE key = "
-                             "'format'")
-                        .ok());
+        make_older(file(), 4);
     }
     EXPECT_TRUE(Journal::open(file(), true).ok());
     auto writer = open({0, 0});

@@ -145,9 +145,15 @@ TEST_F(Journals, AreContinuedAndBranch) {
     EXPECT_EQ(journal.branch(1).value().end, 20);
     EXPECT_EQ(journal.branch(1).value().orders, 2u);
     EXPECT_EQ(journal.branch().value().parent, 1);
-    EXPECT_EQ(journal.holder_of(journal.branch().value(), 3).id, 1)
+    const Lineage lineage = journal.lineage(journal.branch().value());
+    EXPECT_EQ(lineage.parts(), (std::vector<Lineage::Part>{{1, 0, 7}, {2, 7, 9}}))
         << "before it left, its history is its parent's";
-    EXPECT_EQ(journal.holder_of(journal.branch().value(), 8).id, 2);
+    EXPECT_EQ(journal.holder(lineage, 6, 0.5).value().id, 1);
+    EXPECT_EQ(journal.holder(lineage, 7, 0.5).value().id, 2);
+    const Result<Branch> late = journal.holder(lineage, 15, 0.5);
+    ASSERT_FALSE(late.ok()) << "the future that was left is not its own";
+    EXPECT_EQ(late.error().code, "no-such-time");
+    EXPECT_NE(late.error().remedy.find("#1@7.5"), std::string::npos) << late.error().remedy;
     EXPECT_FALSE(journal.branch(3).ok());
 }
 

@@ -50,6 +50,7 @@ Result<> make_tables(Database& db) {
                                 {std::string("version"), program_version()}};
     if (Result<> r = db.run(std::string("BEGIN;") + kJournalTables + kJournalTables5); !r) return r;
     if (Result<> r = db.insert("INSERT INTO meta VALUES(?,?)", meta); !r) return r;
+    if (Result<> r = seal_meta(db); !r) return r;
     return db.run("COMMIT;");
 }
 
@@ -57,15 +58,13 @@ Result<> make_tables(Database& db) {
 Result<> bring_up_to_date(Database& db) {
     const std::int64_t format = count(db, "SELECT value FROM meta WHERE key = 'format'");
     if (format == kJournalFormat) return Ok{};
-    const std::string tables = format < kFirstPrunableFormat ? kJournalTables5 : "";
+    const std::string tables =
+        std::string(format < kFirstPrunableFormat ? kJournalTables5 : "") + kJournalColumns8;
     if (Result<> r = db.run("BEGIN;" + tables); !r) return r;
     if (Result<> r = db.insert("UPDATE meta SET value = ? WHERE key = 'format'", {{kJournalFormat}}); !r)
         return r;
+    if (Result<> r = seal_meta(db); !r) return r;
     return db.run("COMMIT;");
-}
-
-BranchSpan to_span(const Branch& b) {
-    return {b.id, b.parent, b.tick, b.first, b.end, b.model_hash, b.reason};
 }
 
 }  // namespace
@@ -87,7 +86,7 @@ Result<std::unique_ptr<JournalWriter>> JournalWriter::open(const std::string& pa
         Result<Journal> journal = Journal::open(path);
         if (!journal) return journal.error();
         writer->branches_ = journal.value().branches().back().id;
-        for (const Branch& b : journal.value().branches()) writer->spans_.push_back(to_span(b));
+        writer->spans_ = journal.value().spans();
         writer->bookmarks_ = journal.value().bookmarks();
         for (const Bookmark& mark : writer->bookmarks_) writer->last_bookmark_ = mark.id;
         if (Result<> r = bring_up_to_date(*writer->db_); !r) return r.error();
@@ -216,7 +215,7 @@ std::vector<Bookmark> JournalWriter::bookmarks() const {
 
 Tick JournalWriter::first_tick() const {
     const std::lock_guard guard(mutex_);
-    return roboss::first_tick(spans_, branch_);
+    return branch_ == 0 ? 0 : Lineage::of(spans_, branch_).first();
 }
 
 Result<std::int64_t> JournalWriter::add_bookmark(Bookmark bookmark) {
@@ -300,7 +299,7 @@ Result<> JournalWriter::write_rows(const Pending& pending) {
             hashes.push_back(state_hash(RobotId(i), c.tick, (*c.states)[i]));
         const CheckpointEntry entry{branch_, c.tick, world_hash(model_hash_, hashes)};
         Blob states = encode_states(*c.states);
-        const Row row = to_row(entry, encode_memory(c.memory), states);
+        const Row row = to_row(entry, encode_memory(c.memory), states, tail_.serial + 1);
         if (Result<> r = db_->insert(kInsertStates, {states_row(std::move(states))}); !r) return r;
         if (Result<> r = db_->insert(kInsertCheckpoint, {row}); !r) return r;
     }

@@ -15,7 +15,10 @@ namespace roboss {
 /// A run at the beginning of `tick`: states, orders that have not taken effect yet, and the memory of its
 /// control programs.
 struct SavedRun {
-    std::string world_file;           // as it was given; for messages
+    std::string world_file;  // as it was given; for messages
+    /// Of the Model of this file, if robots were added to the run, or it was changed in another way; 0: the
+    /// states are of that Model.
+    std::uint64_t world_hash = 0;
     std::uint64_t seed = 0;           // of the run: for sensor noise and control programs
     Tick tick = 0;                    // at which the run continues
     std::vector<RobotState> states;   // by RobotId
@@ -35,8 +38,12 @@ std::uint64_t state_hash_of(const Model& model, Tick tick, const std::vector<Rob
 /// The same, of a saved run.
 std::uint64_t state_hash_of(const Model& model, const SavedRun& run);
 
-/// Writes the run as a journal of one checkpoint. An Error if the file cannot be written; a file that was at
-/// `path` before then stays as it is.
+/// An Error, "not-a-saved-run", if there is a file that a saved run must not replace: anything but another
+/// one. A journal is none, either.
+Result<> may_save_to(const std::string& path);
+
+/// Writes the run as a journal of one checkpoint. An Error if the file cannot be written, or as
+/// may_save_to(); a file that was at `path` before then stays as it is.
 Result<> save_run(const std::string& path, const Model& model, const SavedRun& run);
 
 /// Loads the end of the file. Errors: no such file, not a journal, another format version,

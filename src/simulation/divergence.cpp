@@ -11,35 +11,27 @@ namespace {
 
 using States = std::vector<RobotState>;
 
-/// One of the two runs.
+/// One of the two runs, in one branch.
 class Side {
   public:
-    Side(const Journal& journal, Branch branch, const ReplayOptions& options)
-        : journal_(journal), branch_(std::move(branch)), options_(options) {}
-
-    Result<> open() {
-        Result<std::shared_ptr<const Model>> model = journal_.model(branch_);
+    static Result<Side> open(const Journal& journal, const Branch& branch, const ReplayOptions& options) {
+        Result<std::shared_ptr<const Model>> model = journal.model(branch);
         if (!model) return model.error();
-        model_ = model.value();
-        entries_ = journal_.checkpoints(branch_);
-        return Ok{};
+        return Side(journal, branch, std::move(model).value(), options);
     }
     const Model& model() const { return *model_; }
     const Branch& branch() const { return branch_; }
-    const Journal& journal() const { return journal_; }
-    Tick first() const { return entries_.front().tick; }
-    Tick last() const { return branch_.end; }
+    const Journal& journal() const { return *journal_; }
 
     const CheckpointEntry* entry(Tick tick) const {
-        for (const CheckpointEntry& entry : entries_)
-            if (entry.tick == tick) return &entry;
-        return nullptr;
+        const CheckpointEntry* before = journal_->checkpoint_before(branch_, tick);
+        return before != nullptr && before->tick == tick ? before : nullptr;
     }
-    const std::vector<CheckpointEntry>& entries() const { return entries_; }
+    std::vector<CheckpointEntry> entries() const { return journal_->checkpoints(branch_); }
     /// The states at a tick: kept ones if there are any, else stepped again.
     Result<States> states(Tick tick) const {
         if (const CheckpointEntry* kept = entry(tick)) {
-            Result<StoredCheckpoint> stored = journal_.checkpoint(*kept, *model_);
+            Result<StoredCheckpoint> stored = journal_->checkpoint(*kept, *model_);
             if (!stored) return stored.error();
             return std::move(stored.value().states);
         }
@@ -49,15 +41,18 @@ class Side {
     }
     /// A simulation at `tick` that can go on to `until`.
     Result<std::unique_ptr<Simulation>> at(Tick tick, Tick until) const {
-        return replay_at(journal_, branch_, model_, tick, until, options_);
+        return replay_at(*journal_, branch_, model_, tick, until, options_);
     }
 
   private:
-    const Journal& journal_;
+    Side(const Journal& journal, Branch branch, std::shared_ptr<const Model> model,
+         const ReplayOptions& options)
+        : journal_(&journal), branch_(std::move(branch)), options_(options), model_(std::move(model)) {}
+
+    const Journal* journal_;
     Branch branch_;
     ReplayOptions options_;
     std::shared_ptr<const Model> model_;
-    std::vector<CheckpointEntry> entries_;
 };
 
 /// Fills in the robots and fields that differ; false if there are none.
@@ -193,18 +188,81 @@ Result<std::size_t> first_that_differs(const Side& a, const Side& b, const std::
     return high;
 }
 
-Result<> check_comparable(const Side& a, const Side& b) {
-    const auto& x = a.model().robots;
-    const auto& y = b.model().robots;
-    const bool same = std::equal(x.begin(), x.end(), y.begin(), y.end(),
-                                 [](const Robot& p, const Robot& q) { return p.name == q.name; });
-    if (!same || a.model().dt_s != b.model().dt_s)
-        return Error{
-            a.journal().path() + " and " + b.journal().path() + " are of worlds with other robots or steps",
-            "compare runs of one world", "other-robots"};
-    if (std::max(a.first(), b.first()) > std::min(a.last(), b.last()))
-        return Error{a.journal().path() + " and " + b.journal().path() + " have no time in common",
-                     "compare runs of the same time", "no-common-time"};
+/// Names in the order of robots.
+std::vector<std::string> robot_names(const Model& model) {
+    std::vector<std::string> names;
+    for (const Robot& robot : model.robots) names.push_back(robot.name);
+    return names;
+}
+
+/// The runs where each is in one branch: what differs between `from` and `until`.
+Result<std::optional<Divergence>> compare_stretch(const Side& a, const Side& b, Tick from, Tick until) {
+    const std::vector<Tick> ticks = ticks_to_compare(a, b, from, until);
+    Divergence kept;
+    Result<std::size_t> at = first_that_differs(a, b, ticks, kept);
+    if (!at) return at.error();
+    if (at.value() == ticks.size()) return std::optional<Divergence>{};
+    if (at.value() == 0) {
+        kept.remark = "they differ from the first tick that both have";
+        return std::optional(std::move(kept));
+    }
+    Result<std::optional<Divergence>> found = step_apart(a, b, ticks[at.value() - 1], ticks[at.value()]);
+    if (!found || found.value()) return found;
+    kept.remark =
+        "stepped again from the checkpoint before, both runs are equal here: one of them was "
+        "computed with other "
+        "bits (`roboss journal verify` says which)";
+    return std::optional(std::move(kept));
+}
+
+/// Where one of the runs goes on in another branch, from `from` to `until`.
+std::vector<Tick> turns(const Lineage& a, const Lineage& b, Tick from, Tick until) {
+    std::vector<Tick> ticks{from, until};
+    for (const Lineage* lineage : {&a, &b})
+        for (const Lineage::Part& part : lineage->parts())
+            if (part.from > from && part.from < until) ticks.push_back(part.from);
+    std::ranges::sort(ticks);
+    const auto repeated = std::ranges::unique(ticks);
+    ticks.erase(repeated.begin(), repeated.end());
+    return ticks;
+}
+
+/// One of the two journals, and the lineage that is compared.
+struct RunOfJournal {
+    const Journal& journal;
+    Lineage lineage;
+    Result<Side> side(Tick tick, const ReplayOptions& options) const {
+        Result<Branch> branch = journal.branch(lineage.at(tick)->branch);
+        if (!branch) return branch.error();
+        return Side::open(journal, branch.value(), options);
+    }
+};
+
+/// Between two turns. `begins`: at the first tick that both have.
+Result<> compare_between(const RunOfJournal& whole_a, const RunOfJournal& whole_b, Tick from, Tick until,
+                         bool begins, const ReplayOptions& options, Comparison& result) {
+    const Result<Side> a = whole_a.side(from, options), b = whole_b.side(from, options);
+    if (!a) return a.error();
+    if (!b) return b.error();
+    const Model &x = a.value().model(), &y = b.value().model();
+    result.model_a = x.hash, result.model_b = y.hash;
+    const bool same = robot_names(x) == robot_names(y);
+    if (x.dt_s != y.dt_s || (!same && begins))
+        return Error{whole_a.journal.path() + " and " + whole_b.journal.path() +
+                         " are of worlds with other robots or steps",
+                     "compare runs of one world", "other-robots"};
+    const bool same_rows =
+        whole_a.journal.path() == whole_b.journal.path() && a.value().branch().id == b.value().branch().id;
+    if (!same) {
+        result.divergence.emplace();
+        result.divergence->tick = from;
+        result.divergence->remark = "from here on, the two runs have other robots";
+    } else if (!same_rows) {
+        Result<std::optional<Divergence>> found = compare_stretch(a.value(), b.value(), from, until);
+        if (!found) return found.error();
+        result.divergence = std::move(found).value();
+    }
+    if (result.divergence) result.divergence->time_s = static_cast<double>(result.divergence->tick) * x.dt_s;
     return Ok{};
 }
 
@@ -212,33 +270,19 @@ Result<> check_comparable(const Side& a, const Side& b) {
 
 Result<Comparison> compare(const Journal& journal_a, const Branch& branch_a, const Journal& journal_b,
                            const Branch& branch_b, const ReplayOptions& options) {
-    Side a(journal_a, branch_a, options), b(journal_b, branch_b, options);
-    for (Side* side : {&a, &b})
-        if (Result<> opened = side->open(); !opened) return opened.error();
-    if (Result<> comparable = check_comparable(a, b); !comparable) return comparable.error();
-    Comparison result{std::max(a.first(), b.first()), std::min(a.last(), b.last()), a.model().hash,
-                      b.model().hash, std::nullopt};
-    const std::vector<Tick> ticks = ticks_to_compare(a, b, result.from, result.until);
-    Divergence kept;
-    Result<std::size_t> at = first_that_differs(a, b, ticks, kept);
-    if (!at) return at.error();
-    if (at.value() == ticks.size()) return result;
-    if (at.value() == 0) {
-        kept.remark = "they differ from the first tick that both have";
-        result.divergence = std::move(kept);
-    } else {
-        Result<std::optional<Divergence>> found = step_apart(a, b, ticks[at.value() - 1], ticks[at.value()]);
-        if (!found) return found.error();
-        if (!found.value()) {
-            kept.remark =
-                "stepped again from the checkpoint before, both runs are equal here: one of them was "
-                "computed with other "
-                "bits (`roboss journal verify` says which)";
-            found.value() = std::move(kept);
-        }
-        result.divergence = std::move(*found.value());
+    const RunOfJournal a{journal_a, journal_a.lineage(branch_a)}, b{journal_b, journal_b.lineage(branch_b)};
+    Comparison result;
+    result.from = std::max(a.lineage.first(), b.lineage.first());
+    result.until = std::min(a.lineage.last(), b.lineage.last());
+    if (result.from > result.until)
+        return Error{journal_a.path() + " and " + journal_b.path() + " have no time in common",
+                     "compare runs of the same time", "no-common-time"};
+    const std::vector<Tick> ticks = turns(a.lineage, b.lineage, result.from, result.until);
+    for (std::size_t i = 0; !result.divergence && (i == 0 || i + 1 < ticks.size()); ++i) {
+        const Tick until = ticks[std::min(i + 1, ticks.size() - 1)];
+        if (Result<> done = compare_between(a, b, ticks[i], until, i == 0, options, result); !done)
+            return done.error();
     }
-    result.divergence->time_s = static_cast<double>(result.divergence->tick) * a.model().dt_s;
     return result;
 }
 

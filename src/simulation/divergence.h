@@ -44,8 +44,8 @@ struct Comparison {
     std::optional<Divergence> divergence;  // none: the runs are equal over these ticks
 };
 
-/// `a` and `b`: the journals with the branches to compare. An Error: they have nothing in common (other
-/// robots, no common time), or cannot be read.
+/// `a` and `b`: the journals with the branches whose lineages are compared. An Error: they have nothing in
+/// common (other robots, no common time), or cannot be read.
 Result<Comparison> compare(const Journal& journal_a, const Branch& a, const Journal& journal_b,
                            const Branch& b, const ReplayOptions& options);
 

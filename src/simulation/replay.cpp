@@ -1,8 +1,6 @@
 // Stepping a journal again.
 #include "simulation/replay.h"
 
-#include <algorithm>
-
 namespace roboss {
 
 Result<std::unique_ptr<Simulation>> replay_from(const Journal& journal, const Branch& branch,
@@ -22,36 +20,57 @@ Result<std::unique_ptr<Simulation>> replay_from(const Journal& journal, const Br
 Result<std::unique_ptr<Simulation>> replay_at(const Journal& journal, const Branch& branch,
                                               const std::shared_ptr<const Model>& model, Tick tick,
                                               Tick until, const ReplayOptions& options) {
-    const std::vector<CheckpointEntry> entries = journal.checkpoints(branch);
-    const auto above = std::upper_bound(entries.begin(), entries.end(), tick,
-                                        [](Tick t, const CheckpointEntry& p) { return t < p.tick; });
-    if (above == entries.begin())
+    const CheckpointEntry* before = journal.checkpoint_before(branch, tick);
+    if (before == nullptr)
         return Error{journal.path() + " has no checkpoint before tick " + std::to_string(tick) +
                          " of branch " + std::to_string(branch.id),
-                     "give a later time"};
-    auto simulation = replay_from(journal, branch, *std::prev(above), model, until, options);
+                     "give a later time", "no-such-time"};
+    auto simulation = replay_from(journal, branch, *before, model, until, options);
     if (!simulation) return simulation;
     if (Result<> done = simulation.value()->run_until(tick); !done) return done.error();
     return simulation;
 }
 
-Result<std::vector<Stretch>> verify(const Journal& journal, const Branch& branch,
-                                    const ReplayOptions& options,
-                                    const std::function<void(const Stretch&)>& tell) {
-    Result<std::shared_ptr<const Model>> model = journal.model(branch);
-    if (!model) return model.error();
-    const std::vector<CheckpointEntry> entries = journal.checkpoints(branch);
+std::vector<Stretch> stretches_of(const Journal& journal, const Branch& branch) {
     std::vector<Stretch> stretches;
+    const std::vector<CheckpointEntry> entries = journal.checkpoints(branch);
+    const std::vector<Lineage::Part> parts = journal.lineage(branch).parts();
+    if (parts.size() > 1 && parts.back().from == branch.tick) {
+        const Branch left = *journal.find(parts[parts.size() - 2].branch);
+        if (const CheckpointEntry* before = journal.checkpoint_before(left, branch.tick);
+            before != nullptr && left.model_hash == branch.model_hash)
+            stretches.push_back({left.id, before->tick, branch.tick, entries.front().hash, 0, branch.id});
+    }
     for (std::size_t i = 0; i < entries.size(); ++i) {
         const bool last = i + 1 == entries.size();
-        Stretch s{branch.id, entries[i].tick, last ? branch.committed : entries[i + 1].tick,
-                  last ? branch.hash : entries[i + 1].hash, 0};
-        if (s.until <= s.from) break;
-        auto simulation = replay_from(journal, branch, entries[i], model.value(), s.until, options);
+        const Stretch s{branch.id,
+                        entries[i].tick,
+                        last ? branch.committed : entries[i + 1].tick,
+                        last ? branch.hash : entries[i + 1].hash,
+                        0,
+                        0};
+        if (s.until > s.from) stretches.push_back(s);
+    }
+    return stretches;
+}
+
+Result<std::vector<Stretch>> verify(const Journal& journal, const Branch& branch,
+                                    const ReplayOptions& options,
+                                    const std::function<void(const Stretch&)>& tell,
+                                    const VerifyWatch& watch) {
+    Result<std::shared_ptr<const Model>> model = journal.model(branch);
+    if (!model) return model.error();
+    std::vector<Stretch> stretches = stretches_of(journal, branch);
+    for (Stretch& s : stretches) {
+        const Branch in = *journal.find(s.branch);
+        auto simulation =
+            replay_from(journal, in, *journal.checkpoint_before(in, s.from), model.value(), s.until, options);
         if (!simulation) return simulation.error();
-        if (Result<> done = simulation.value()->run_until(s.until); !done) return done.error();
+        const auto goes_on = [&] { return !watch || watch(s, simulation.value()->tick()); };
+        if (Result<> done = simulation.value()->run_until(s.until, goes_on); !done) return done.error();
+        if (simulation.value()->tick() < s.until)
+            return Error{"the verification was interrupted", "start it again", "interrupted"};
         s.found = simulation.value()->hash();
-        stretches.push_back(s);
         if (tell) tell(s);
     }
     return stretches;

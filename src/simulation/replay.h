@@ -35,13 +35,22 @@ struct Stretch {
         until = 0;                               ///< tick at which the hashes are compared
     std::uint64_t kept = 0,                      ///< hash of the world at `until` in the journal
         found = 0;                               ///< hash of the world at `until` when stepped again
+    BranchId next = 0;                           ///< that begins at `until` with the hash `kept`; 0: none
     bool good() const { return kept == found; }  ///< stepping again gave the same state
 };
 
-/// Steps every stretch of the branch again, from its first checkpoint to the last tick whose hash is known;
-/// each from its checkpoint, so that one fault does not hide the next. Calls `tell` after each.
+/// All stretches of the branch: how it begins where it left another, if that has the same Model; then from
+/// its first checkpoint to the last tick whose hash is known. Nothing is stepped yet: `found` is 0.
+std::vector<Stretch> stretches_of(const Journal& journal, const Branch& branch);
+
+/// Watches the steps of a verification: gets the stretch and its present tick; false ends it.
+using VerifyWatch = std::function<bool(const Stretch&, Tick)>;
+
+/// Steps every stretch of the branch again, each from its checkpoint, so that one fault does not hide the
+/// next. Calls `tell` after each. An Error, "interrupted": `watch` has ended it.
 Result<std::vector<Stretch>> verify(const Journal& journal, const Branch& branch,
                                     const ReplayOptions& options,
-                                    const std::function<void(const Stretch&)>& tell = {});
+                                    const std::function<void(const Stretch&)>& tell = {},
+                                    const VerifyWatch& watch = {});
 
 }  // namespace roboss

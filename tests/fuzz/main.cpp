@@ -15,6 +15,7 @@
 #include <tuple>
 
 #include "app/commands/numbers.h"
+#include "core/output_check.h"
 #include "core/thread_pool.h"
 #include "fuzz/property.h"
 #include "fuzz/shot.h"
@@ -53,7 +54,7 @@ struct Options {
 std::vector<std::string> world_properties() {
     std::vector<std::string> names;
     for (const Property& p : properties())
-        if (p.name != "cluster") names.push_back(p.name);
+        if (p.name != "cluster" && p.name != "branches") names.push_back(p.name);
     return names;
 }
 
@@ -217,6 +218,11 @@ void print_summary(const Property& property, const std::vector<Row>& rows) {
 }
 
 bool write_json(const std::string& name, const std::vector<Row>& rows) {
+    if (!may_become(name, "figures")) {
+        fmt::print(stderr, "roboss-fuzz: '{}' exists and holds something else\n  remedy: give another name\n",
+                   name);
+        return false;
+    }
     nlohmann::json list = nlohmann::json::array();
     for (const Row& row : rows) {
         const Setting& s = row.request.setting;

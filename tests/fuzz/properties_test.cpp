@@ -76,6 +76,10 @@ TEST(Property, AClusterWithFaultsEndsWithTheUndisturbedHash) {
     expect_holds({"cluster", 200, 0.3});
 }
 
+TEST(Property, AJournalReplaysThroughEachLineageWithTheCommittedHashes) {
+    expect_holds({"branches", 40, 0.2});
+}
+
 TEST(Property, HashIsTheSameInFiveConfigurations) {
     expect_holds({"hash", 56, 0.3, {"fleet", "wild", "crowd", "room", "loop", "coupled", "acting"}});
 }

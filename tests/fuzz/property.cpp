@@ -93,6 +93,16 @@ std::vector<Property> make_run_properties() {
          {0},
          0.3,
          run_cluster},
+        {"branches",
+         "a journal of additions, removals, rewinds, resets and saves replays through each lineage with the "
+         "committed hashes",
+         "states compared",
+         any,
+         {1e-3, 2e-3, 4e-3, 5e-3},
+         {1, 10},
+         {0},
+         0.3,
+         run_branches},
     };
 }
 

@@ -61,5 +61,6 @@ Finding run_ghost(const Request& request);
 Finding run_tunnel(const Request& request);
 Finding run_hash(const Request& request);
 Finding run_cluster(const Request& request);
+Finding run_branches(const Request& request);
 
 }  // namespace roboss::fuzz

@@ -7,8 +7,8 @@ from typing import Any, Iterable, Optional
 import numpy as np
 
 from ..errors import ArgumentError
-from .command import Parser, Progress, check_folder
-from .recorder import is_journal, record
+from .command import Parser, Progress, check_file
+from .recorder import is_journal, record, ways
 from .record_command import add_common
 from .recording import SUFFIXES, Recording, read, write
 
@@ -92,7 +92,7 @@ def _kind(kinds: Any, name: str, what: str, examples: str, source: str) -> Parse
 
 
 def run(options: Any) -> Any:
-    check_folder(options.output)
+    check_file(options.output, "html", [options.source, *getattr(options, "exchange", [])])
     report = {"arm": _arm, "vehicle": _vehicle, "walker": _walker}[options.kind](options, Progress("analyse", options.quiet))
     report.write(options.output)
     if not options.json:
@@ -112,7 +112,7 @@ def _arm(options: Any, progress: Progress) -> Any:
     if options.exchange:
         raise ArgumentError("--exchange with a world", "give a recording of each arm", "bad-value")
     if options.keep:
-        check_folder(options.keep)
+        check_file(options.keep, reads=[options.source])
     from .arm_driver import ArmDriver, ArmTest
     load_options = {"ground": options.ground, "fixed_base": options.fixed_base}
     if options.cycles < 2 or options.servo_hz <= 0 or min(options.speeds) <= 0 or min(options.loads) < 0:
@@ -224,6 +224,7 @@ def _walker(options: Any, progress: Progress) -> Any:
     patterns = [f"{robot or '*'}.*.effort", f"{robot or '*'}.*.velocity", f"{robot or '*'}.pose"]
     recording = record(options.source, patterns, until=options.until, every=options.every, start=options.start,
                        progress=lambda now, end: progress(f"{now:.2f} of {end:.2f} s"))
+    progress.note_if(ways(options.source))
     robots = {name[:-len(".pose")] for name in recording.variables if name.endswith(".pose")}
     robots = {name for name in robots if any(v.startswith(name + ".") and v.endswith(".effort") for v in recording.variables)}
     if robot is None and len(robots) != 1:

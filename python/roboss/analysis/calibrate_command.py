@@ -6,7 +6,7 @@ import re
 from typing import Any, Optional
 
 from ..errors import ArgumentError
-from .command import Parser, Progress, check_folder
+from .command import Parser, Progress, check_file
 from .record_command import add_common
 from .recording import existing, read
 
@@ -53,7 +53,7 @@ def parser() -> Parser:
 def run(options: Any) -> Any:
     from .calibration import PATTERNS, Parameter, TestRun, calibrate
     if options.output:
-        check_folder(options.output)
+        check_file(options.output, "world", [options.world, *options.client])
     if options.fit_time is not None and not options.fit_time > 0:
         raise ArgumentError(f"--fit-time {options.fit_time:g}", "give the largest offset, in s, above 0", "bad-value")
     parameters = []

@@ -7,9 +7,10 @@ import json
 import sys
 import time
 from pathlib import Path
-from typing import Any, NoReturn, Sequence
+from typing import Any, Iterable, NoReturn, Optional, Sequence
 
 from ..errors import ArgumentError, RobossError
+from ..outputs import check_output
 
 OK, BAD_INPUT, WRONG_USAGE, FAILED, INTERRUPTED = 0, 1, 2, 3, 130  # docs/command-line.md
 _EXIT_CODES = """Exit codes: 0 done, 1 an input is wrong or missing, 2 wrong usage, 3 the run failed or a file cannot be written,
@@ -54,16 +55,22 @@ class Progress:
         if not self._quiet:
             print(f"roboss {self._command}: {text}", file=sys.stderr, flush=True)
 
+    def note_if(self, text: str) -> None:
+        """A note, if there is something to say."""
+        if text:
+            self.note(text)
+
 
 def complain(message: str, code: str = "", remedy: str = "") -> None:
     """Prints an error as the program does."""
     print(f"roboss: {message}" + (f" [{code}]" if code else "") + (f"\n  remedy: {remedy}" if remedy else ""), file=sys.stderr)
 
 
-def check_folder(path: str) -> None:
-    """Refuses a file to write whose folder does not exist, before anything is computed."""
+def check_file(path: str, kind: Optional[str] = None, reads: Iterable[object] = ()) -> None:
+    """Refuses a file to write whose folder does not exist, or that check_output() refuses, before anything is computed."""
     if not Path(path).absolute().parent.is_dir():
         raise ArgumentError(f"there is no folder for '{path}'", "make it, or choose another one", "no-file")
+    check_output(path, kind, reads)
 
 
 def main(arguments: Sequence[str]) -> NoReturn:

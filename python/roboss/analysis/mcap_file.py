@@ -57,6 +57,8 @@ class McapWriter:
         for channel in self._channels:
             self._writer.add_message(channel.id, stamp, channel.message(values, stamp), stamp, self._row)
         for message_channel, value in zip(self._message_channels, messages):
+            if value is None:  # its robot is not there
+                continue
             self._writer.add_message(message_channel.id, stamp, message_channel.message(value, stamp), stamp, self._row)
         self._row += 1
 

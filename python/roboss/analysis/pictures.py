@@ -11,6 +11,7 @@ from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
+from ..outputs import check_output
 from ..robots import Floats
 from .recording import Recording
 
@@ -57,6 +58,7 @@ def plot(recording: Recording, patterns: Union[str, Sequence[str]], *, against: 
 
 def save(figure: Figure, path: Union[str, os.PathLike]) -> None:
     """Writes a picture; the name says the format: .png, .svg, .pdf."""
+    check_output(path)
     with matplotlib.rc_context(_STYLE):
         FigureCanvasAgg(figure)
         figure.savefig(path, dpi=150, **({"metadata": {"Date": None}} if str(path).endswith(".svg") else {}))

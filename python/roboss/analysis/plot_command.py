@@ -4,8 +4,8 @@ from __future__ import annotations
 from typing import Any
 
 from ..errors import ArgumentError
-from .command import Parser, Progress, check_folder
-from .recorder import record
+from .command import Parser, Progress, check_file
+from .recorder import record, ways
 from .record_command import add_common
 
 _EXAMPLES = """Examples:
@@ -33,11 +33,12 @@ def run(options: Any) -> Any:
     from . import pictures
     if not options.output.endswith((".png", ".svg", ".pdf")):
         raise ArgumentError(f"a picture named '{options.output}'", "end the name in .png, .svg or .pdf", "unknown-format")
-    check_folder(options.output)
+    check_file(options.output, reads=[options.source])
     progress = Progress("plot", options.quiet)
     patterns = options.variables + ([options.against] if options.against else [])
     recording = record(options.source, patterns, until=options.until, every=options.every, start=options.start,
                        progress=lambda now, end: progress(f"{now:.2f} of {end:.2f} s"))
+    progress.note_if(ways(options.source))
     pictures.save(pictures.plot(recording, options.variables, against=options.against, title=options.title), options.output)
     numbers = recording.select(options.variables)
     rows = [{"column": recording.columns[n].name, "unit": recording.columns[n].unit, "min": float(values.min()),

@@ -8,8 +8,8 @@ from pathlib import Path
 from typing import Any
 
 from ..errors import ArgumentError
-from .command import Parser, Progress, check_folder
-from .recorder import check_order, is_journal, journal_of_run, opened, record_file
+from .command import Parser, Progress, check_file
+from .recorder import check_order, is_journal, journal_of_run, opened, record_file, ways
 from .recording import SUFFIXES, existing
 from .variables import Variables
 
@@ -64,7 +64,7 @@ def run(options: Any) -> Any:
                             "give -o FILE.parquet, FILE.mcap or FILE.csv", "unknown-format")
     existing(options.source)
     if not options.list:
-        check_folder(options.output)
+        check_file(options.output, reads=[options.source, options.orders, *options.client])
     progress, begin = Progress("record", options.quiet), time.monotonic()
     with ExitStack() as stack:
         source = options.source
@@ -82,6 +82,7 @@ def run(options: Any) -> Any:
         done = record_file(source, options.output, options.variables or ["*.pose"], until=options.until, every=options.every,
                            start=options.start, branch=options.branch, name=options.source,
                            progress=lambda now, end: progress(f"{now:.2f} of {end:.2f} s"))
+    progress.note_if(ways(options.source, options.branch))
     if done.left_out:
         progress.note(f"without {', '.join(done.left_out[:8])}{' ...' if len(done.left_out) > 8 else ''}: with {options.every:g} s "
                       "between samples messages would be missing (--every)")

@@ -11,14 +11,15 @@ from typing import Any, Callable, Iterable, Iterator, Mapping, Optional, Sequenc
 
 import numpy as np
 
-from ..errors import ArgumentError, JournalError, RobossError, WorldWarning
-from ..journal import Journal
+from ..errors import ArgumentError, RobossError, WorldWarning
+from ..journal import Journal, _Replay
 from ..kinematics import RobotModel
+from ..outputs import check_output
 from ..run import Run
 from ..simulation import Simulation
 from ..world import World, load
 from .recording import SUFFIXES, Recording, existing, read, write, writer_of
-from .variables import Variables
+from .variables import ChangingVariables, Variables
 
 Source = Union[str, os.PathLike, World, Simulation, Journal]
 Progress = Callable[[float, float], None]  # gets the time and the end, s
@@ -52,7 +53,7 @@ def record(source: Source, patterns: Union[str, Iterable[str], None] = None, *, 
     if not isinstance(source, (World, Simulation, Journal)) and Path(source).suffix in SUFFIXES:
         return _part(read(source), patterns, start, until)
     run, last, name = opened(source, start, until, branch)
-    variables = Variables(run, patterns)
+    variables = variables_of(run, last, patterns)
     times, rows = [], []
     for sim in _samples(run, last, every):
         times.append(sim.time)
@@ -102,8 +103,9 @@ def record_file(source: Source, path: Union[str, os.PathLike], patterns: Union[s
         ends = (float(part.time[0]), float(part.time[-1])) if len(part.time) else (0.0, 0.0)
         return Recorded(list(part.variables), len(part.columns), len(part.time), *ends)
     run, last, ending = opened(source, start, until, branch)
+    check_output(path, reads=[source])
     takes_messages = Path(path).suffix != ".csv"
-    variables = Variables(run, patterns, messages=takes_messages, every=_ticks(run, every) * run.dt)
+    variables = variables_of(run, last, patterns, messages=takes_messages, every=_ticks(run, every) * run.dt)
     names = [*dict.fromkeys(c.variable for c in variables.columns), *(m.name for m in variables.messages.variables)]
     done = Recorded(names, len(variables.columns), first=run.time, left_out=tuple(variables.left_out))
     with writer_of(path, variables.columns, _facts(run, name or ending, variables), variables.messages.variables) as writer:
@@ -113,6 +115,23 @@ def record_file(source: Source, path: Union[str, os.PathLike], patterns: Union[s
             if progress:
                 progress(sim.time, last)
     return done
+
+
+def variables_of(run: Run, last: float, patterns: Union[str, Iterable[str], None], messages: bool = False,
+                 every: float = 0.0) -> Variables:
+    """Variables of the run up to a time, s, also of robots that come only later in a recording."""
+    later = run._later(last) if isinstance(run, _Replay) else []
+    if not later:
+        return Variables(run, patterns, messages, every)
+    return ChangingVariables(run, later, patterns, messages, every)
+
+
+def ways(source: Source, branch: Optional[int] = None) -> str:
+    """Through which branches a journal leads, in words, if there are several; else empty."""
+    if isinstance(source, (World, Simulation)) or not (isinstance(source, Journal) or is_journal(source)):
+        return ""
+    parts = (source if isinstance(source, Journal) else Journal(source)).lineage(branch)
+    return "goes through " + ", ".join(f"branch {number} to {until:g} s" for number, _, until in parts) if len(parts) > 1 else ""
 
 
 def _facts(run: Run, name: str, variables: Variables) -> dict[str, Any]:
@@ -195,8 +214,7 @@ def opened(source: Source, start: Optional[float], until: Optional[float],
         first, last = journal.times(branch)
         end = last if until is None else until
         if not first <= end <= last + 1e-9:
-            raise JournalError(f"'{journal.path}' has no time {end:g} s", f"give one from {first:g} to {last:g} s",
-                               "no-such-time")
+            journal.at(end, branch)  # says which branch has it
         return journal.at(first if start is None else start, branch), end, journal.path
     if until is None:
         raise ArgumentError("a world has no end", "say until which time (--until)", "no-end")

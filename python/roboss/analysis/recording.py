@@ -12,6 +12,7 @@ import numpy as np
 
 from ..errors import ArgumentError, RobossError
 from ..names import unknown
+from ..outputs import check_output
 from ..robots import Floats
 
 if TYPE_CHECKING:
@@ -138,7 +139,8 @@ def write(recording: Recording, path: Union[str, os.PathLike]) -> None:
 def writer_of(path: Union[str, os.PathLike], columns: Sequence[Column], facts: Mapping[str, Any],
               messages: Sequence[MessageVariable] = ()) -> Union[ParquetWriter, McapWriter, CsvWriter]:
     """A writer of the format that the name of the file says, which takes one sample after the other. A table (.csv) takes no
-    messages. Raises ArgumentError for another name."""
+    messages. Raises ArgumentError for another name, and for a file of another kind."""
+    check_output(path)
     suffix = _suffix(path)
     if suffix == ".csv":
         from .csv_file import CsvWriter

@@ -5,6 +5,8 @@ import html
 import os
 from typing import Any, Optional, Sequence, Union
 
+from ..outputs import check_output
+
 _STYLE = """
 :root { color-scheme: light dark; --ink: #1d2329; --soft: #5b6670; --line: #d9dee3; --paper: #fff; --stripe: #f5f7f9; }
 @media (prefers-color-scheme: dark) {
@@ -68,7 +70,8 @@ class Report:
                 + "\n".join(self._parts) + "</body></html>\n")
 
     def write(self, path: Union[str, os.PathLike]) -> None:
-        """Writes the page."""
+        """Writes the page. Raises ArgumentError where that would replace a file of another kind."""
+        check_output(path, "html")
         with open(path, "w", encoding="utf-8") as stream:
             stream.write(self.html())
 

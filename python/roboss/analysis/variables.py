@@ -6,11 +6,11 @@ from typing import Any, Callable, Iterable, Optional, Union
 
 import numpy as np
 
-from ..errors import ArgumentError, SensorError
+from ..errors import ArgumentError, SensorError, UnknownNameError
 from ..names import unknown
 from ..robots import Floats, Robots
 from ..run import Run
-from .messages import AS_MESSAGES, WORLD_CONTACTS, Messages, kinds_of, sensor_names
+from .messages import AS_MESSAGES, WORLD_CONTACTS, MessageVariable, Messages, kinds_of, sensor_names
 from .recording import POSE, TWIST, Column, matches
 
 _Read = Callable[[Robots], Any]  # gives (N, parts)
@@ -129,6 +129,71 @@ class Variables:
                                     "changed-length")
             out[places] = values
         return out[self._chosen]
+
+
+class ChangingVariables(Variables):
+    """Variables of a recording in which robots come and go: columns of all of them, no number (nan) where one is not there.
+
+    Args:
+        run: that goes through the recording.
+        later: a run of each world to come.
+        others: as of Variables. A pattern has to match in one of the worlds.
+    """
+
+    def __init__(self, run: Run, later: Iterable[Run], patterns: Union[str, Iterable[str], None], messages: bool, every: float):
+        wanted = None if patterns is None else [patterns] if isinstance(patterns, str) else list(patterns)
+        self._run, self._options = run, {"messages": messages, "every": every}
+        self._wanted: dict[str, Optional[list[str]]] = {}  # patterns that match, by world
+        columns: dict[str, Column] = {}
+        shown: dict[str, MessageVariable] = {}
+        self.left_out = []
+        for each in (run, *later):
+            here = wanted if wanted is None else [pattern for pattern in wanted if self._matches(each, pattern)]
+            self._wanted[each.world.hash] = here
+            found = Variables(each, here, **self._options)
+            columns.update((column.name, column) for column in found.columns if column.name not in columns)
+            shown.update((variable.name, variable) for variable in found.messages.variables if variable.name not in shown)
+            self.left_out += [name for name in found.left_out if name not in self.left_out]
+        for pattern in wanted or ():
+            if not any(pattern in here for here in self._wanted.values() if here is not None):
+                Variables(run, [pattern], **self._options)  # raises: it matches nothing
+        self.columns = list(columns.values())
+        self.messages = _ChangingMessages(self, list(shown.values()))
+        self._place = {name: number for number, name in enumerate(columns)}
+        self._now, self._hash = Variables(run, self._wanted[run.world.hash], **self._options), run.world.hash
+
+    def _matches(self, run: Run, pattern: str) -> bool:
+        try:
+            Variables(run, [pattern], **self._options)
+        except UnknownNameError:
+            return False
+        return True
+
+    def now(self) -> Variables:
+        """Those of the present world."""
+        if self._run.world.hash != self._hash:
+            self._hash = self._run.world.hash
+            self._now = Variables(self._run, self._wanted[self._hash], **self._options)
+        return self._now
+
+    def read(self) -> Floats:
+        out = np.full(len(self.columns), np.nan)
+        now = self.now()
+        out[[self._place[column.name] for column in now.columns]] = now.read()
+        return out
+
+
+class _ChangingMessages(Messages):
+    """Messages of a recording in which robots come and go; None where one is not there."""
+
+    def __init__(self, of: ChangingVariables, variables: list[MessageVariable]):
+        super().__init__(of._run)
+        self.variables, self._of = variables, of
+
+    def read(self) -> list[Any]:
+        now = self._of.now().messages
+        values = dict(zip((variable.name for variable in now.variables), now.read()))
+        return [values.get(variable.name) for variable in self.variables]
 
 
 def yaw(quat_xyzw: Floats) -> Floats:

@@ -19,6 +19,7 @@
 #include "client/plugin.h"
 #include "client/program_host.h"
 #include "core/monotonic.h"
+#include "core/output_check.h"
 #include "core/similar.h"
 #include "device/device_run.h"
 #include "device/twin.h"
@@ -87,6 +88,10 @@ class DeviceProcess {
 
   private:
     Result<> check_usage() const {
+        OutputCheck outputs;
+        outputs.reads(o_.world), outputs.reads(o_.program);
+        outputs.writes("--json", o_.json, "device summary");
+        if (Result<> fine = outputs.check(); !fine) return fine;
         if (o_.world.empty() == !o_.twin)
             return Error{
                 o_.twin ? "a world and --twin" : "no world",

@@ -20,8 +20,9 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 const char* const kDiffFooter =
-    R"(A and B are journals (FILE or FILE#BRANCH). Their checkpoints are compared. Both runs are then stepped again, side
-by side, over the first stretch that ends differently, so the journals may have any --journal-every.
+    R"(A and B are journals (FILE or FILE#BRANCH): the whole history that led to that branch, through those before it. Their
+checkpoints are compared. Both runs are then stepped again, side by side, over the first stretch that ends differently,
+so the journals may have any --journal-every.
 
 Exit codes: 0 equal over the time that both cover, 1 a journal cannot be read or they have no time in common, 2 wrong usage,
 3 different.)";
@@ -65,9 +66,9 @@ void print_text(const Comparison& c, double dt_s) {
     const Divergence& d = *c.divergence;
     fmt::print("different; compared {}\n", span);
     fmt::print("first at          tick {} ({:.6f} s), {} robots\n", d.tick, d.time_s, d.robots);
-    fmt::print("robot             {}\n", d.robot);
-    fmt::print("field             {}\n  a               {}\n  b               {}\n", d.field.field, d.field.a,
-               d.field.b);
+    if (!d.robot.empty())
+        fmt::print("robot             {}\nfield             {}\n  a               {}\n  b               {}\n",
+                   d.robot, d.field.field, d.field.a, d.field.b);
     print_orders("only in a", d.orders_a_only);
     print_orders("only in b", d.orders_b_only);
     if (!d.remark.empty()) fmt::print("remark            {}\n", d.remark);
@@ -100,6 +101,10 @@ int diff(const DiffOptions& o) {
     if (!b) return print(b.error()), kBadInput;
     Result<std::shared_ptr<const Model>> model = a.value().journal.model(a.value().branch);
     if (!model) return print(model.error()), kBadInput;
+    for (const auto& [name, run] : {std::pair(o.a, &a.value()), std::pair(o.b, &b.value())})
+        if (const std::string text = ways(run->journal.lineage(run->branch), model.value()->dt_s);
+            !text.empty())
+            fmt::print(stderr, "roboss: {} {} [branches]\n", name, text);
     const Result<Comparison> compared = compare(a.value().journal, a.value().branch, b.value().journal,
                                                 b.value().branch, {static_cast<unsigned>(o.threads), 0});
     if (!compared) return print(compared.error()), kBadInput;

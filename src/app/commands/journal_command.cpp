@@ -2,7 +2,10 @@
 #include "app/commands/journal_command.h"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
+#include <chrono>
+#include <cstdio>
 #include <filesystem>
 #include <limits>
 #include <memory>
@@ -10,6 +13,7 @@
 
 #include "app/commands/exit_codes.h"
 #include "app/commands/numbers.h"
+#include "app/processes/interrupt.h"
 #include "app/run/journal_location.h"
 #include "app/run/run.h"
 #include "app/worlds/orders_file.h"
@@ -148,30 +152,76 @@ int info(const JournalOptions& o) {
 }
 
 Json to_json(const Stretch& s) {
-    return {{"branch", s.branch}, {"from_tick", s.from},         {"until_tick", s.until},
-            {"good", s.good()},   {"kept_hash", to_hex(s.kept)}, {"found_hash", to_hex(s.found)}};
+    return {
+        {"branch", s.branch}, {"from_tick", s.from},         {"until_tick", s.until},        {"next", s.next},
+        {"good", s.good()},   {"kept_hash", to_hex(s.kept)}, {"found_hash", to_hex(s.found)}};
 }
+
+std::string line_of(const Stretch& s) {
+    const std::string beginning = s.next != 0 ? fmt::format("the beginning of branch {}: ", s.next) : "";
+    return fmt::format(
+        "branch {}  ticks {} to {}  {}{}\n", s.branch, s.from, s.until, beginning,
+        s.good() ? "equal"
+                 : fmt::format("DIFFERENT: recorded {}, replayed {}", to_hex(s.kept), to_hex(s.found)));
+}
+
+/// How far a verification is, on standard error: a line that changes on a terminal, else one every ten
+/// seconds.
+class VerifyProgress {
+  public:
+    explicit VerifyProgress(Tick all) : all_(std::max<Tick>(1, all)) {}
+    void show(Tick done) {
+        const auto now = std::chrono::steady_clock::now();
+        if (now - shown_ < (terminal_ ? std::chrono::milliseconds(500) : std::chrono::seconds(10))) return;
+        shown_ = now;
+        fmt::print(stderr, "{}verified {} of {} ticks ({:.0f} %){}", terminal_ ? "\r" : "roboss: ", done,
+                   all_, 100.0 * static_cast<double>(done) / static_cast<double>(all_),
+                   terminal_ ? "  " : "\n");
+        std::fflush(stderr);
+        open_ = terminal_;
+    }
+    /// Before other text.
+    void clear() {
+        if (std::exchange(open_, false)) fmt::print(stderr, "\n");
+    }
+
+  private:
+    Tick all_;
+    bool terminal_ = isatty(STDERR_FILENO) == 1, open_ = false;
+    std::chrono::steady_clock::time_point shown_ = std::chrono::steady_clock::now();
+};
 
 int verify(const JournalOptions& o) {
     const std::optional<Opened> opened = open(o, true);
     if (!opened) return kBadInput;
     const Journal& journal = opened->journal;
     if (Result<> whole = journal.inspect(); !whole) return print(whole.error()), kBadInput;
-    Json stretches = Json::array();
-    std::size_t bad = 0;
+    watch_for_interrupts();
+    std::vector<Branch> branches;
+    Tick all = 0, done_before = 0;
     for (const Branch& b : journal.branches()) {
         if (opened->location.branch && *opened->location.branch != b.id) continue;
-        const auto report = [&](const Stretch& s) {
-            bad += s.good() ? 0 : 1;
-            stretches.push_back(to_json(s));
-            if (!o.json)
-                fmt::print("branch {}  ticks {} to {}  {}\n", s.branch, s.from, s.until,
-                           s.good() ? "equal"
-                                    : fmt::format("DIFFERENT: recorded {}, replayed {}", to_hex(s.kept),
-                                                  to_hex(s.found)));
-        };
-        auto done = roboss::verify(journal, b, {static_cast<unsigned>(o.threads), 0}, report);
-        if (!done) return print(done.error()), kRunFailed;
+        branches.push_back(b);
+        for (const Stretch& s : stretches_of(journal, b)) all += s.until - s.from;
+    }
+    VerifyProgress progress(all);
+    Json stretches = Json::array();
+    std::size_t bad = 0;
+    const auto report = [&](const Stretch& s) {
+        bad += s.good() ? 0 : 1;
+        done_before += s.until - s.from;
+        stretches.push_back(to_json(s));
+        progress.clear();
+        if (!o.json) fmt::print("{}", line_of(s));
+    };
+    const auto watch = [&](const Stretch& s, Tick now) {
+        progress.show(done_before + now - s.from);
+        return !interrupted();
+    };
+    for (const Branch& b : branches) {
+        auto done = roboss::verify(journal, b, {static_cast<unsigned>(o.threads), 0}, report, watch);
+        progress.clear();
+        if (!done) return print(done.error()), interrupted() ? kInterrupted : kRunFailed;
     }
     if (o.json)
         print_json(
@@ -184,23 +234,32 @@ void print_line(const Json& o) {
     fmt::print("{}\n", o.dump(-1, ' ', false, Json::error_handler_t::replace));
 }
 
-/// One branch as JSON lines, in the order of time.
-int export_branch(const Journal& journal, const JournalTime& time, bool from_here, bool orders_only) {
-    const Model& model = *time.model;
+/// What a branch of a lineage has of it from a tick on, as JSON lines, in the order of time. Orders that
+/// apply when the next branch has begun are in the log of that one.
+int export_part(const Journal& journal, const Lineage& lineage, const Lineage::Part& part, Tick from,
+                bool orders_only) {
+    Result<Branch> branch = journal.branch(part.branch);
+    if (!branch) return print(branch.error()), kBadInput;
+    Result<std::shared_ptr<const Model>> read = journal.model(branch.value());
+    if (!read) return print(read.error()), kBadInput;
+    const Model& model = *read.value();
     constexpr Tick kAll = std::numeric_limits<Tick>::max();
-    Result<LogBatch> log = journal.log(time.branch, from_here ? time.tick : -1, kAll);
+    const Tick until = lineage.after(part) != nullptr ? part.until : kAll;
+    Result<LogBatch> log = journal.log(branch.value(), from, until);
     if (!log) return print(log.error()), kBadInput;
     const auto seconds = [&](Tick tick) { return static_cast<double>(tick) * model.dt_s; };
     if (!orders_only) {
-        print_line(to_json(time.branch, model.dt_s));
-        for (const CheckpointEntry& c : journal.checkpoints(time.branch))
-            print_line({{"checkpoint", c.tick}, {"t", seconds(c.tick)}, {"state_hash", to_hex(c.hash)}});
+        print_line(to_json(branch.value(), model.dt_s));
+        for (const CheckpointEntry& c : journal.checkpoints(branch.value()))
+            if (c.tick < until)
+                print_line({{"checkpoint", c.tick}, {"t", seconds(c.tick)}, {"state_hash", to_hex(c.hash)}});
         for (const auto& [client, name] : log.value().clients)
             print_line({{"client", client}, {"name", name}});
         for (const LogNote& note : log.value().notes)
             print_line({{"note", note.text}, {"tick", note.tick}, {"t", seconds(note.tick)}});
     }
     for (const LoggedOrder& o : log.value().orders) {
+        if (o.order.apply_at >= until) continue;
         if (Result<> good = check_order(model, o.order); !good) return print(good.error()), kBadInput;
         fmt::print("{}\n", order_line(o.order, model));
     }
@@ -212,7 +271,16 @@ int export_log(const JournalOptions& o) {
     if (!opened) return kBadInput;
     Result<JournalTime> time = find_time(opened->journal, opened->location);
     if (!time) return print(time.error()), kBadInput;
-    return export_branch(opened->journal, time.value(), opened->location.time_s.has_value(), o.orders);
+    const Lineage& lineage = time.value().lineage;
+    if (const std::string text = ways(lineage, time.value().model->dt_s); !text.empty())
+        fmt::print(stderr, "roboss: the export {} [branches]\n", text);
+    const bool all = !opened->location.time_s.has_value();
+    for (const Lineage::Part& part : lineage.parts()) {
+        if (!all && part.until <= time.value().tick && lineage.after(part) != nullptr) continue;
+        const int code = export_part(opened->journal, lineage, part, all ? -1 : time.value().tick, o.orders);
+        if (code != kSuccess) return code;
+    }
+    return kSuccess;
 }
 
 }  // namespace
@@ -237,7 +305,8 @@ void add_journal_command(CLI::App& app, int& exit_code) {
         ->check(whole_number(1, 1024))
         ->capture_default_str();
     add("export",
-        "print a branch as JSON lines: checkpoints, Clients, notes, orders (from TIME on, if given)",
+        "print a branch, with the history that led to it, as JSON lines: checkpoints, Clients, notes, orders "
+        "(from TIME on, if given)",
         export_log)
         ->add_flag("--orders", o->orders, "print only the orders, in the format of `roboss run --orders`");
 }

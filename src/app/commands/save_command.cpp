@@ -9,6 +9,7 @@
 #include "app/commands/exit_codes.h"
 #include "app/run/journal_location.h"
 #include "app/run/run.h"
+#include "core/output_check.h"
 
 namespace roboss {
 namespace {
@@ -36,6 +37,10 @@ int save_from_journal(const SaveOptions& o) {
     Result<OpenedJournalTime> opened = open_location(o.from);
     if (!opened) return print(opened.error()), kBadInput;
     const auto& [location, journal, time] = opened.value();
+    OutputCheck check;
+    check.reads(location.file);
+    check.writes("the command", o.file, "saved state");
+    if (Result<> fine = check.check(); !fine) return print(fine.error()), kBadInput;
     const Model& model = *time.model;
     Result<SavedRun> run = journal.run_at(time.branch, model, time.tick);
     if (!run) return print(run.error()), kBadInput;

@@ -87,6 +87,9 @@ std::string to_json(const Summary& s) {
     o["migrations"] = s.migrations;
     o["cuts"] = s.cuts;
     if (!s.journal.empty()) o["journal"] = {{"file", s.journal}, {"bytes", s.journal_bytes}};
+    if (s.replayed)
+        o["checkpoints"] = {{"compared", s.replayed->equal + (s.replayed->differs ? 1 : 0)},
+                            {"equal", s.replayed->equal}};
     o["model_hash"] = to_hex(s.model_hash);
     o["state_hash"] = to_hex(s.state_hash);
     if (s.profile) {
@@ -115,6 +118,10 @@ std::string to_text(const Summary& s) {
         s.real_time_factor, s.step_cpu_s, robot_ticks > 0 ? s.step_cpu_s * 1e6 / robot_ticks : 0.0, s.windows,
         s.windows_repeated, s.islands_mean, s.contacts_mean, s.building_contacts_mean, s.simulators, s.losses,
         s.migrations, to_hex(s.model_hash), to_hex(s.state_hash));
+    if (s.replayed)
+        text += s.replayed->differs
+                    ? fmt::format("checkpoints       {} equal, the next one differs\n", s.replayed->equal)
+                    : fmt::format("checkpoints       {} compared, all equal\n", s.replayed->equal);
     if (!s.journal.empty())
         text += fmt::format("journal           {}, {:.1f} MB (--journal-keep limits it)\n", s.journal,
                             1e-6 * static_cast<double>(s.journal_bytes));

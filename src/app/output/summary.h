@@ -32,7 +32,13 @@ struct Summary {
     std::size_t simulators = 0;    // at the end
     std::optional<StepProfile> profile;  // with --profile-steps
     double friction_tolerance = 0;       // of the world's accuracy
-    std::string journal;                 // the file that the run has written; empty: none
+    /// Of a replay: recorded states that were compared and are equal, and whether one was not.
+    struct Replayed {
+        std::size_t equal = 0;
+        bool differs = false;
+    };
+    std::optional<Replayed> replayed;
+    std::string journal;  // the file that the run has written; empty: none
     std::uint64_t journal_bytes = 0;
 };
 

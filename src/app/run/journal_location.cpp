@@ -42,12 +42,14 @@ Result<JournalLocation> parse_location(const std::string& text) {
 Result<JournalTime> find_time(const Journal& journal, const JournalLocation& location) {
     Result<Branch> named = journal.branch(location.branch);
     if (!named) return named.error();
-    JournalTime time{named.value(), nullptr, named.value().end};
+    JournalTime time{journal.lineage(named.value()), named.value(), nullptr, named.value().end};
     Result<std::shared_ptr<const Model>> model = journal.model(time.branch);
     if (!model) return model.error();
     if (location.time_s) {  // the step is the same for all branches of a journal
         time.tick = tick_at(*location.time_s, model.value()->dt_s);
-        time.branch = journal.holder_of(time.branch, time.tick);
+        Result<Branch> holder = journal.holder(time.lineage, time.tick, model.value()->dt_s);
+        if (!holder) return holder.error();
+        time.branch = std::move(holder).value();
         model = journal.model(time.branch);
         if (!model) return model.error();
     }
@@ -64,6 +66,10 @@ Result<OpenedJournalTime> open_location(const std::string& text) {
     if (!time) return time.error();
     return OpenedJournalTime{std::move(location).value(), std::move(journal).value(),
                              std::move(time).value()};
+}
+
+std::string ways(const Lineage& lineage, double dt_s) {
+    return lineage.parts().size() > 1 ? "goes through " + lineage.text(dt_s) : std::string();
 }
 
 }  // namespace roboss

@@ -17,8 +17,9 @@ struct JournalLocation {
 /// "run.journal#2@12.5". A file that exists under the whole name is that file.
 Result<JournalLocation> parse_location(const std::string& text);
 
-/// The branch that has this point in time (an ancestor of the one named, if that begins later), and the tick.
+/// The lineage of the branch that was named, the branch of it that holds the point in time, and the tick.
 struct JournalTime {
+    Lineage lineage;
     Branch branch;
     std::shared_ptr<const Model> model;
     Tick tick = 0;
@@ -32,5 +33,9 @@ struct OpenedJournalTime {
     JournalTime time;
 };
 Result<OpenedJournalTime> open_location(const std::string& text);
+
+/// For people, if a command went through more than one branch: "goes through branch 1 to 1 s, branch 2 to
+/// 2.5 s"; else empty.
+std::string ways(const Lineage& lineage, double dt_s);
 
 }  // namespace roboss

@@ -144,23 +144,18 @@ Result<JournalPreview::Moment> JournalPreview::look_up(const PreviewRun& wanted,
                                                        double dt_s) const {
     Result<Branch> named = journal_->branch(branch);
     if (!named) return named.error();
+    const Lineage lineage = journal_->lineage(named.value());
     Moment moment;
     moment.tick = tick_at(wanted.time_s, dt_s);
-    moment.branch = journal_->holder_of(named.value(), moment.tick);
-    const Tick end = moment.branch.committed;
+    const Tick end = named.value().committed;  // of what may still be written
     if (moment.tick > end && static_cast<double>(moment.tick - end) * dt_s <= kNearEnd_s) moment.tick = end;
+    Result<Branch> holder = journal_->holder(lineage, moment.tick, dt_s);
+    if (!holder) return holder.error();
+    moment.branch = std::move(holder).value();
+    moment.checkpoint = *journal_->checkpoint_before(moment.branch, moment.tick);
     const std::vector<CheckpointEntry> entries = journal_->checkpoints(moment.branch);
-    const auto above = std::upper_bound(entries.begin(), entries.end(), moment.tick,
-                                        [](Tick t, const CheckpointEntry& p) { return t < p.tick; });
-    if (above == entries.begin() || moment.tick > moment.branch.end) {
-        const auto time = [&](Tick t) { return std::to_string(static_cast<double>(t) * dt_s) + " s"; };
-        return Error{"branch " + std::to_string(moment.branch.id) + " has nothing at " + time(moment.tick) +
-                         ", it has " + time(moment.branch.first) + " to " + time(end),
-                     "give a time that it has; earlier ones may have been pruned (--journal-keep)",
-                     "no-such-time"};
-    }
-    moment.checkpoint = *std::prev(above);
-    moment.until = above != entries.end() ? above->tick : end;
+    const auto next = std::ranges::upper_bound(entries, moment.tick, {}, &CheckpointEntry::tick);
+    moment.until = next != entries.end() ? next->tick : std::max(moment.tick, moment.branch.committed);
     return moment;
 }
 

@@ -14,6 +14,7 @@
 #include "app/processes/crash_report.h"
 #include "app/processes/interrupt.h"
 #include "app/processes/threads.h"
+#include "app/run/run_outputs.h"
 #include "app/worlds/orders_file.h"
 #include "app/worlds/world_census.h"
 #include "client/plugin.h"
@@ -76,6 +77,7 @@ void print(const Error& error) {
 }
 
 int Run::go() {
+    if (const Result<> fine = check_outputs(o_); !fine) return print(fine.error()), kBadInput;
     if (!o_.clients.empty()) report_crashes(o_.journal);
     if (!prepare()) return kBadInput;
     watch_for_interrupts();
@@ -379,10 +381,17 @@ bool Run::begin() {
     busy_until_ = start_;
     if (start_ > simulation_->tick() && !advance_to(start_)) return false;
     if (interrupted()) return true;
-    if (!o_.from.empty()) last_save_ = Kept{model_, simulation_->saved_run()};
     const Result<> begun = journal_->begin(*simulation_);
-    if (!begun) print(begun.error());
-    return begun.ok();
+    if (!begun) return print(begun.error()), false;
+    if (!o_.from.empty()) last_save_ = Kept{model_, saved_run(), journal_->branch()};
+    return true;
+}
+
+SavedRun Run::saved_run() const {
+    SavedRun run = simulation_->saved_run();
+    const std::uint64_t world = world_model_ ? world_model_->hash : journal_->world_hash();
+    run.world_hash = world == model_->hash ? 0 : world;
+    return run;
 }
 
 /// A table or the summary as JSON: what is for people goes to standard error then.
@@ -418,6 +427,7 @@ Summary Run::summary(double wall_s) const {
     s.simulators = c.simulators;
     if (o_.profile_steps) s.profile = profile_;
     s.friction_tolerance = model_->accuracy.friction_tolerance;
+    if (journal_->replay()) s.replayed = {journal_->compared(), journal_->differs()};
     if (journal_->writes()) s.journal = journal_->file(), s.journal_bytes = journal_->bytes();
     return s;
 }
@@ -434,7 +444,7 @@ int Run::finish(bool fine, double wall_s) {
         check(dataset_->close());
         fmt::print(stderr, "wrote {}\n", dataset_->summary());
     }
-    if (!o_.save.empty() && !abandoned_) check(simulation_->save(o_.save));
+    if (!o_.save.empty() && !abandoned_) check(save_run(o_.save, *model_, saved_run()));
     check(journal_->close());
     take_profile();
     const Summary s = summary(wall_s);  // the journal has its last size

@@ -72,6 +72,8 @@ class Run {
     Result<ModelVisuals::Worlds> seen_worlds(const Model& model);
     Result<std::shared_ptr<const render::VisualWorld>> visual_world(const Model& model);
     std::vector<std::uint8_t> visual_bytes(const Model& model);
+    /// The present state, with the world that it comes from.
+    SavedRun saved_run() const;
     bool takes_picture() const { return !o_.snapshot.file.empty() || o_.sense.wanted(); }
     bool writes_to_standard_output() const;
     Summary summary(double wall_s) const;
@@ -80,6 +82,7 @@ class Run {
     // run_loop.cpp: the time between
     bool drive();
     RunOver over(bool fine) const;
+    bool go_on();
     bool look(const Schedule& due);
     bool rest();
     /// At the end of the duration: whether the run stays, paused, for inspection.
@@ -157,6 +160,7 @@ class Run {
     struct Kept {
         std::shared_ptr<const Model> model;
         SavedRun run;
+        BranchId branch = 0;  // of the journal, that has this state; 0: there is none
     };
     std::optional<Kept> last_save_;
     std::vector<Order> orders_;  // of the orders file

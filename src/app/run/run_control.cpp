@@ -9,6 +9,7 @@
 #include "app/processes/private_folder.h"
 #include "app/run/journal_location.h"
 #include "app/run/run.h"
+#include "app/run/run_outputs.h"
 #include "app/run/save_place.h"
 #include "app/worlds/orders_file.h"
 #include "model/accuracy.h"
@@ -166,10 +167,11 @@ Run::Done Run::act(const KillSimulator& kill) {
 }
 
 Run::Done Run::act(const SaveRun& save) {
-    const Result<std::filesystem::path> file = save_place(o_.save_folder, save, o_.journal);
+    const Result<std::filesystem::path> file = save_place(o_.save_folder, save, inputs_of(o_));
     if (!file) return file.error();
-    if (Result<> saved = simulation_->save(file.value().string()); !saved) return saved.error();
-    last_save_ = Kept{model_, simulation_->saved_run()};
+    SavedRun run = saved_run();
+    if (Result<> saved = save_run(file.value().string(), *model_, run); !saved) return saved.error();
+    last_save_ = Kept{model_, std::move(run), journal_->branch()};
     return fmt::format("saved {:.6f} s (tick {}) in {}", simulation_->time_s(), simulation_->tick(),
                        file.value().string());
 }
@@ -206,7 +208,7 @@ Run::Done Run::seek(const RewindRun& to) {
         return Error{"the replay could not be turned to that time", "see the messages above"};
     pace_.begin(simulation_->tick());
     return fmt::format("turned from tick {} to tick {} of branch {}", before, simulation_->tick(),
-                       journal_->branch());
+                       journal_->replay()->branch.id);
 }
 
 Run::Done Run::act(const AddBookmark& add) {
@@ -220,7 +222,7 @@ Run::Done Run::act(const AddBookmark& add) {
     const std::vector<BranchSpan> spans = journal_->writer().spans();
     const auto span = std::ranges::find_if(spans, holds);
     if (span == spans.end() || tick > std::max(span->end, simulation_->tick()) ||
-        tick < first_tick(spans, branch))
+        tick < Lineage::of(spans, branch).first())
         return Error{fmt::format("the journal has nothing at {:.6f} s of branch {}", add.time_s, branch),
                      "`roboss control timeline` shows what it has", "no-such-time"};
     Result<std::int64_t> added = journal_->writer().add_bookmark({0, branch, tick, add.name});
@@ -257,11 +259,10 @@ Run::Done Run::reset_to_save() {
     if (!last_save_)
         return Error{"nothing has been saved in this run",
                      "save first: `roboss control save FILE`, or start with --from", "no-save"};
-    const auto [model, run] = *last_save_;
+    const auto [model, run, branch] = *last_save_;
     const std::string text =
         fmt::format("reset from tick {} to the last save, tick {}", simulation_->tick(), run.tick);
-    const BranchId parent = journal_->writes() ? journal_->writer().branch() : 0;
-    if (Result<> again = start_again(model, run, {parent, text, true, nullptr}); !again) return again.error();
+    if (Result<> again = start_again(model, run, {branch, text, true, nullptr}); !again) return again.error();
     if (pace_.step_until) pace_.paused = true, pace_.step_until.reset();
     return journal_->writes() ? text + fmt::format(", branch {}", journal_->writer().branch()) : text;
 }

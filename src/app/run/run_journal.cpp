@@ -28,29 +28,29 @@ Result<std::unique_ptr<RunJournal>> RunJournal::open_replay(const RunOptions& op
     if (!opened) return opened.error();
     const auto& [location, journal, time] = opened.value();
     result->file_ = location.file;
-    for (const Branch& b : journal.branches())
-        result->replay_spans_.push_back({b.id, b.parent, b.tick, b.first, b.end, b.model_hash, b.reason});
+    result->replay_spans_ = journal.spans();
     result->replay_bookmarks_ = journal.bookmarks();
-    const std::optional<Tick> start = location.time_s ? std::optional<Tick>(time.tick) : std::nullopt;
-    if (Result<> loaded = result->load_replay(journal, time, start); !loaded) return loaded.error();
+    const Tick start = location.time_s ? time.tick : time.lineage.first();
+    if (Result<> loaded = result->load_replay(journal, time.lineage, start); !loaded) return loaded.error();
+    if (const std::string text = ways(time.lineage, time.model->dt_s); !text.empty())
+        result->notices_.push_back("the replay " + text + " [branches]");
     return result;
 }
 
-/// From `start` on, by default from the beginning of the branch as far as the file has it.
-Result<> RunJournal::load_replay(const Journal& journal, const JournalTime& time, std::optional<Tick> start) {
-    const Branch& branch = time.branch;
-    Replay replay{time.model, branch, journal.checkpoints(branch)};
-    if (branch.hash != 0 && branch.committed > replay.checks.back().tick)
-        replay.checks.push_back({branch.id, branch.committed, branch.hash});
-    const Tick first = start.value_or(branch.first);
-    Result<SavedRun> to_start = journal.run_at(branch, *replay.model, first);
-    if (!to_start) return to_start.error();
-    Result<SavedRun> run = journal.run_from(
-        branch, {branch.id, to_start.value().tick, state_hash_of(*replay.model, to_start.value())},
-        *replay.model, branch.end);
+Result<> RunJournal::load_replay(const Journal& journal, const Lineage& lineage, Tick start) {
+    const Lineage::Part part = *lineage.at(start);
+    Result<Branch> branch = journal.branch(part.branch);
+    if (!branch) return branch.error();
+    Result<std::shared_ptr<const Model>> model = journal.model(branch.value());
+    if (!model) return model.error();
+    Replay replay{lineage, part, model.value(), branch.value(), journal.checkpoints(branch.value())};
+    if (branch.value().hash != 0 && branch.value().committed > replay.checks.back().tick)
+        replay.checks.push_back({part.branch, branch.value().committed, branch.value().hash});
+    Result<SavedRun> run = journal.run_from(branch.value(), *journal.checkpoint_before(branch.value(), start),
+                                            *replay.model, part.until);
     if (!run) return run.error();
-    start_ = first;
-    replay_first_tick_ = journal.first_tick(branch);
+    start_ = start;
+    world_hash_ = journal.world_hash(branch.value());
     from_ = std::move(run).value();
     replay_ = std::move(replay);
     return Ok{};
@@ -62,17 +62,41 @@ Result<> RunJournal::seek(BranchId branch, double time_s) {
     const BranchId wanted = branch > 0 ? branch : this->branch();
     Result<JournalTime> time = find_time(journal.value(), {file_, wanted, time_s});
     if (!time) return time.error();
-    return load_replay(journal.value(), time.value(), time.value().tick);
+    return load_replay(journal.value(), time.value().lineage, time.value().tick);
+}
+
+bool RunJournal::turns_at(Tick now) const {
+    return replay_ && now == replay_->part.until && replay_->part.branch != replay_->lineage.branch();
+}
+
+Result<> RunJournal::go_on(std::uint64_t hash) {
+    const Tick now = replay_->part.until;
+    if (Result<> equal = check(now, hash); !equal) return equal;
+    Result<Journal> journal = Journal::open_own(file_);
+    if (!journal) return journal.error();
+    const std::uint64_t model = replay_->model->hash;
+    const BranchId before = replay_->branch.id;
+    if (Result<> loaded = load_replay(journal.value(), replay_->lineage, now); !loaded) return loaded;
+    if (replay_->model->hash != model) return Ok{};
+    if (replay_->checks.front().hash == hash) return ++compared_, Ok{};
+    differs_ = true;
+    return Error{
+        fmt::format("branch {} does not begin with the state that branch {} has at tick {}: hash {} "
+                    "instead of {}",
+                    replay_->branch.id, before, now, to_hex(replay_->checks.front().hash), to_hex(hash)),
+        fmt::format("replay from its beginning: {}#{}@{}", file_, replay_->branch.id,
+                    static_cast<double>(now) * replay_->model->dt_s),
+        "bits-differ"};
 }
 
 BranchId RunJournal::branch() const {
     if (writer_) return writer_->branch();
-    return replay_ ? replay_->branch.id : 0;
+    return replay_ ? replay_->lineage.branch() : 0;
 }
 
 std::uint64_t RunJournal::timeline_serial() const {
     if (writer_) return writer_->timeline_serial();
-    return replay_ ? static_cast<std::uint64_t>(replay_->branch.id) : 0;
+    return static_cast<std::uint64_t>(branch());
 }
 
 RunTimeline RunJournal::timeline(double dt_s) const {
@@ -114,31 +138,31 @@ double RunJournal::growth_mb_per_min(std::int64_t now_ms) {
 }
 
 Tick RunJournal::next_check(Tick now) const {
-    if (replay_)
-        for (const CheckpointEntry& entry : replay_->checks)
-            if (entry.tick > now) return entry.tick;
-    return std::numeric_limits<Tick>::max();
+    if (!replay_) return std::numeric_limits<Tick>::max();
+    const auto next = std::ranges::upper_bound(replay_->checks, now, {}, &CheckpointEntry::tick);
+    const Tick turn = turns_at(replay_->part.until) ? replay_->part.until : std::numeric_limits<Tick>::max();
+    return next == replay_->checks.end() ? turn : std::min(turn, next->tick);
 }
 
-Result<> RunJournal::check(Tick now, std::uint64_t hash) const {
+Result<> RunJournal::check(Tick now, std::uint64_t hash) {
     if (!replay_) return Ok{};
-    for (const CheckpointEntry& entry : replay_->checks)
-        if (entry.tick == now && entry.hash != hash)
-            return Error{
-                fmt::format(
-                    "at tick {} the state of the replay differs from the recorded run: hash {} instead of {}",
-                    now, to_hex(hash), to_hex(entry.hash)),
-                "one of the two machines computes other bits: see `roboss journal verify`, and replay on "
-                "another machine",
-                "bits-differ"};
-    return Ok{};
+    const auto entry = std::ranges::lower_bound(replay_->checks, now, {}, &CheckpointEntry::tick);
+    const bool restored = now == from_->tick;  // from this very checkpoint
+    if (entry == replay_->checks.end() || entry->tick != now || restored) return Ok{};
+    if (entry->hash == hash) return ++compared_, Ok{};
+    differs_ = true;
+    return Error{
+        fmt::format("at tick {} the state of the replay differs from the recorded run: hash {} instead of {}",
+                    now, to_hex(hash), to_hex(entry->hash)),
+        "one of the two machines computes other bits: see `roboss journal verify`, and replay on "
+        "another machine",
+        "bits-differ"};
 }
 
 /// The branch's Model: that of the world file, or one into which a run of this world was changed.
 Result<std::shared_ptr<const Model>> RunJournal::model_of(const Journal& journal, const Branch& branch,
                                                           const Model& world) {
-    const Branch root = journal.holder_of(branch, -1);
-    if (Result<> fits = check_world(journal, root, world); !fits) return fits.error();
+    if (Result<> fits = check_world(journal, branch, world); !fits) return fits.error();
     Result<std::shared_ptr<const Model>> model = journal.model(branch);
     if (model && model.value()->hash != world.hash) changed_model_ = model.value();
     return model;

@@ -18,20 +18,32 @@ class RunJournal {
     static Result<std::unique_ptr<RunJournal>> open(const RunOptions& options, const Model& model);
     /// For --replay, which needs no world.
     static Result<std::unique_ptr<RunJournal>> open_replay(const RunOptions& options);
-    /// What to step again, and what must come of it.
+    /// What to step again, and what must come of it: one branch of the lineage after the other.
     struct Replay {
+        Lineage lineage;
+        Lineage::Part part;  // of it, that is stepped now
         std::shared_ptr<const Model> model;
         Branch branch;
         std::vector<CheckpointEntry> checks;  // ascending
     };
     const std::optional<Replay>& replay() const { return replay_; }
-    /// Turns the replay to another time of the file; branch 0: the one that is replayed. It begins at from()
-    /// and is to be stepped to start().
+    /// Turns the replay to another time of the file; branch 0: the lineage that is replayed. It begins at
+    /// from() and is to be stepped to start().
     Result<> seek(BranchId branch, double time_s);
+    /// At this tick the replay goes on in the next branch of its lineage: see go_on().
+    bool turns_at(Tick now) const;
+    /// Turns to the next branch, where from() is; `hash`: of the world where the one before was left. An
+    /// Error: the next branch did not begin there.
+    Result<> go_on(std::uint64_t hash);
+    /// Recorded states that were compared and are equal, and whether one was not.
+    std::size_t compared() const { return compared_; }
+    bool differs() const { return differs_; }
+    /// Of a replay: hash of the Model of the world file.
+    std::uint64_t world_hash() const { return world_hash_; }
 
     /// The file that can be looked into: the journal, or the file that is replayed; empty: none.
     const std::string& file() const { return file_; }
-    /// Of that file; 0: none.
+    /// Of that file; of a replay the one whose lineage is replayed; 0: none.
     BranchId branch() const;
     /// RunStatus::timeline.
     std::uint64_t timeline_serial() const;
@@ -40,10 +52,10 @@ class RunJournal {
     std::uint64_t bytes() const;
     /// MB per minute of real time by which the file grew in the last minute.
     double growth_mb_per_min(std::int64_t now_ms);
-    /// The next tick whose hash is known.
+    /// The next tick whose hash is known, or at which the replay goes on in another branch.
     Tick next_check(Tick now) const;
     /// Compares the hash with the one recorded for this tick, if any.
-    Result<> check(Tick now, std::uint64_t hash) const;
+    Result<> check(Tick now, std::uint64_t hash);
 
     /// Where the run starts; none: at the world's beginning.
     /// The Model at that time if it differs from the world file (for example, robots were added); else null.
@@ -67,7 +79,9 @@ class RunJournal {
     JournalWriter& writer() { return *writer_; }
     Tick log_ticks() const { return log_ticks_; }
     /// The first tick that can be rewound to.
-    Tick first_tick() const { return writer_ ? writer_->first_tick() : replay_first_tick_; }
+    Tick first_tick() const {
+        return writer_ ? writer_->first_tick() : replay_ ? replay_->lineage.first() : 0;
+    }
     std::vector<std::string> take_notices();
     Result<> close();
 
@@ -78,7 +92,7 @@ class RunJournal {
     Result<> resume(const Model& model);
     Result<std::shared_ptr<const Model>> model_of(const Journal& journal, const Branch& branch,
                                                   const Model& world);
-    Result<> load_replay(const Journal& journal, const JournalTime& time, std::optional<Tick> start);
+    Result<> load_replay(const Journal& journal, const Lineage& lineage, Tick start);
     static Result<SavedRun> last_run(const Journal& journal, const Branch& branch, const Model& model);
 
     const RunOptions& o_;
@@ -92,7 +106,9 @@ class RunJournal {
     std::string reason_ = "run";
     bool resumes_ = false;
     Tick log_ticks_ = 0;
-    Tick replay_first_tick_ = 0;
+    std::size_t compared_ = 0;
+    bool differs_ = false;
+    std::uint64_t world_hash_ = 0;
     std::string file_;
     std::vector<BranchSpan> replay_spans_;
     std::vector<Bookmark> replay_bookmarks_;

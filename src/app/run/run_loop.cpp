@@ -133,7 +133,18 @@ bool Run::look(const Schedule& due) {
 
 /// Beyond which there is nothing: the end of what a replay has.
 Tick Run::last_tick() const {
-    return journal_->replay() ? journal_->replay()->branch.end : kNever;
+    return journal_->replay() ? journal_->replay()->lineage.last() : kNever;
+}
+
+/// The replay goes on in the next branch of its lineage, perhaps with other robots.
+bool Run::go_on() {
+    Result<> turned = journal_->go_on(simulation_->hash());
+    if (turned) turned = restart(journal_->replay()->model, *journal_->from(), false);
+    if (!turned) return stop(turned.error()), false;
+    notices_.push_back(fmt::format("at {:.6f} s the replay goes on in branch {} ({}) [branch]",
+                                   simulation_->time_s(), journal_->replay()->branch.id,
+                                   journal_->replay()->branch.reason));
+    return true;
 }
 
 Tick Run::end_of_run() const {
@@ -162,6 +173,7 @@ bool Run::drive() {
     Tick seen = -1;  // the last tick whose due work is done
     for (;;) {
         serve_requests();
+        if (journal_->turns_at(simulation_->tick()) && !go_on()) return false;
         const Tick now = simulation_->tick();
         if (now != seen && !look(due)) return false;
         seen = now;

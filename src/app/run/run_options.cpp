@@ -49,8 +49,8 @@ Simulators receive the compiled world from the Controller; they need no file. Ki
 Results do not change.)";
 
 const char* const kReplayFooter =
-    R"(Steps a recorded run again, without its world file and its control programs, and compares the state with the
-journal at every checkpoint. Traces, contacts and pictures can be written as during the run itself.
+    R"(Steps a recorded run again, without its world file and its control programs, through all branches that led to the one
+named, and compares the state with the journal at every checkpoint. Traces, contacts and pictures can be written as during the run itself.
 
 Examples:
   roboss replay run.journal

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "journal/journal.h"
+#include "journal/saved_run.h"
 
 namespace roboss {
 namespace {
@@ -22,7 +22,8 @@ Error outside(const std::string& file, const fs::path& folder) {
 
 }  // namespace
 
-Result<fs::path> save_place(const std::string& folder, const SaveRun& save, const std::string& journal) {
+Result<fs::path> save_place(const std::string& folder, const SaveRun& save,
+                            const std::vector<std::string>& in_use) {
     std::error_code error;
     const fs::path root = fs::canonical(folder.empty() ? fs::path(".") : fs::path(folder), error);
     if (error)
@@ -42,11 +43,14 @@ Result<fs::path> save_place(const std::string& folder, const SaveRun& save, cons
     if (!fs::exists(found)) return file;
     if (!save.overwrite)
         return Error{file.string() + " exists", "give another name, or ask to overwrite it", "file-exists"};
-    if (!journal.empty() && fs::equivalent(file, journal, error))
-        return Error{file.string() + " is the journal of this run", "give another name", "file-in-use"};
-    if (!fs::is_regular_file(found) || !Journal::open(file.string()))
+    for (const std::string& used : in_use)
+        if (fs::equivalent(file, used, error))
+            return Error{file.string() + " is a file of this run: " + used, "give another name",
+                         "file-in-use"};
+    if (!fs::is_regular_file(found))
         return Error{file.string() + " is not a saved run, and nothing else is overwritten",
                      "give another name, or remove the file yourself", "not-a-saved-run"};
+    if (Result<> may = may_save_to(file.string()); !may) return may.error();
     return file;
 }
 

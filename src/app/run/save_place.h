@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "core/result.h"
 #include "wire/control.h"
@@ -10,12 +11,12 @@
 namespace roboss {
 
 /// The file for a request to save, with the parts of its path resolved. `folder`: `--save-folder`; empty: the
-/// current one. `journal`: the run's own, which is never replaced; empty: none.
+/// current one. `in_use`: files of the run that are never replaced: its journal, its world ...
 ///
 /// An Error has one of these codes: outside-folder, no-folder (of the file), file-exists (and it was not
-/// asked to overwrite it), not-a-saved-run (nothing else is overwritten), file-in-use (it is the run's
-/// journal).
+/// asked to overwrite it), not-a-saved-run (nothing else is overwritten), file-in-use (it is the of
+/// `in_use`).
 Result<std::filesystem::path> save_place(const std::string& folder, const SaveRun& save,
-                                         const std::string& journal);
+                                         const std::vector<std::string>& in_use);
 
 }  // namespace roboss

@@ -22,8 +22,9 @@ class SavePlace : public testing::Test {
         fs::create_directories(root_ / "outside");
     }
     void TearDown() override { fs::remove_all(root_); }
-    std::string code(const std::string& file, bool overwrite = false, const std::string& journal = {}) {
-        const Result<fs::path> place = save_place(folder_.string(), {file, overwrite}, journal);
+    std::string code(const std::string& file, bool overwrite = false,
+                     const std::vector<std::string>& in_use = {}) {
+        const Result<fs::path> place = save_place(folder_.string(), {file, overwrite}, in_use);
         return place ? "" : place.error().code;
     }
     /// A file that is a saved run.
@@ -78,7 +79,9 @@ TEST_F(SavePlace, AnExistingFileIsReplacedOnlyIfAskedAndIfItIsASavedRun) {
     save(folder_ / "a.roboss");
     EXPECT_EQ(code("a.roboss"), "file-exists");
     EXPECT_EQ(code("a.roboss", true), "");
-    EXPECT_EQ(code("a.roboss", true, (folder_ / "inner/../a.roboss").string()), "file-in-use");
+    EXPECT_EQ(code("a.roboss", true, {"other", (folder_ / "inner/../a.roboss").string()}), "file-in-use");
+    fs::create_hard_link(folder_ / "a.roboss", folder_ / "b.roboss");
+    EXPECT_EQ(code("b.roboss", true, {(folder_ / "a.roboss").string()}), "file-in-use") << "by another name";
     std::ofstream(folder_ / "notes.txt") << "text";
     EXPECT_EQ(code("notes.txt"), "file-exists");
     EXPECT_EQ(code("notes.txt", true), "not-a-saved-run");

@@ -31,8 +31,10 @@ export function momentStrip(state: ViewerState, run: RunLink): HTMLElement {
         back,
     );
     const shownMoment = (): Moment | null => {
-        const shown = state.shown.value;
-        return shown === null ? run.preview.wanted.value : { branch: shown.branch, time: shown.time_s };
+        // The branch that was asked for, not the one before it that holds the moment: a replay goes on to its end.
+        const wanted = run.preview.wanted.value,
+            shown = state.shown.value;
+        return wanted === null || shown === null ? wanted : { branch: wanted.branch, time: shown.time_s };
     };
     go.addEventListener("click", () => {
         const moment = shownMoment();

@@ -1,0 +1,27 @@
+"""Files that functions and commands write: none replaces an input or a file of another kind."""
+from __future__ import annotations
+
+import os
+from pathlib import Path
+from typing import Iterable, Optional, Union
+
+from . import _core
+
+_Path = Union[str, os.PathLike]
+#: Kinds of files by the endings of their names.
+KINDS = {".parquet": "parquet", ".mcap": "mcap", ".png": "png", ".svg": "svg", ".pdf": "pdf", ".html": "html"}
+
+
+def check_output(path: _Path, kind: Optional[str] = None, reads: Iterable[object] = ()) -> None:
+    """Refuses a file to write that is read, too (also by a link), or that exists and is of another kind.
+
+    Args:
+        kind: what is written; None: what the ending of its name says.
+        reads: paths of inputs; what is no path is ignored.
+
+    Raises:
+        ArgumentError: codes "output-is-input", "other-kind".
+    """
+    kind = kind or KINDS.get(Path(path).suffix.lower())
+    if kind is not None:
+        _core.check_output(os.fspath(path), kind, [os.fspath(read) for read in reads if isinstance(read, (str, os.PathLike))])

@@ -1,0 +1,92 @@
+// Outputs that would replace something else.
+#include "core/output_check.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+
+namespace roboss::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+class Outputs : public ::testing::Test {
+  protected:
+    void SetUp() override {
+        folder_ = fs::path(::testing::TempDir()) /
+                  ("roboss_outputs_" +
+                   std::string(::testing::UnitTest::GetInstance()->current_test_info()->name()));
+        fs::remove_all(folder_);
+        fs::create_directories(folder_);
+    }
+    void TearDown() override { fs::remove_all(folder_); }
+    std::string file(const std::string& name, const std::string& text) const {
+        std::ofstream(folder_ / name, std::ios::binary) << text;
+        return (folder_ / name).string();
+    }
+    std::string path(const std::string& name) const { return (folder_ / name).string(); }
+    static std::string code(const OutputCheck& check) {
+        const Result<> done = check.check();
+        return done ? "" : done.error().code;
+    }
+    /// Of one output beside an input.
+    std::string code_of(const std::string& output, std::string_view kind = "trace") const {
+        OutputCheck check;
+        check.reads(path("world.sdf"));
+        check.writes("--trace", output, kind);
+        return code(check);
+    }
+    fs::path folder_;
+};
+
+constexpr const char* kWorld = "<?xml version=\"1.0\"?><sdf version=\"1.9\"/>";
+constexpr const char* kTrace = "time_s,robot,link,x,y,z\n0,arm,base,0,0,0\n";
+
+TEST_F(Outputs, NeverReplaceAnInputByWhateverName) {
+    file("world.sdf", kWorld);
+    fs::create_symlink(path("world.sdf"), path("link.csv"));
+    fs::create_hard_link(path("world.sdf"), path("other.csv"));
+    fs::create_directory(path("sub"));
+    for (const char* name : {"world.sdf", "link.csv", "other.csv", "sub/../world.sdf", "./world.sdf"})
+        EXPECT_EQ(code_of(path(name)), "output-is-input") << name;
+    EXPECT_EQ(code_of(path("world.sdf"), "world"), "output-is-input") << "of the same kind, too";
+}
+
+TEST_F(Outputs, NeverReplaceAFileOfAnotherKind) {
+    EXPECT_EQ(code_of(file("notes.txt", "remember the milk")), "other-kind");
+    EXPECT_EQ(code_of(file("table.csv", "a,b,c\n1,2,3\n")), "other-kind");
+    file("kept.csv", "a,b\n");
+    fs::create_symlink(path("kept.csv"), path("link.csv"));
+    EXPECT_EQ(code_of(path("link.csv")), "other-kind");
+    for (const std::string_view kind : file_kinds()) {
+        EXPECT_FALSE(may_become(path("notes.txt"), kind)) << kind;
+        EXPECT_EQ(may_become(file("trace.csv", kTrace), kind), kind == "trace") << kind;
+    }
+}
+
+TEST_F(Outputs, ReplaceAnOlderOneOfTheirKindAndWhatIsEmptyOrNew) {
+    EXPECT_EQ(code_of(file("trace.csv", kTrace)), "");
+    EXPECT_EQ(code_of(file("empty.csv", "")), "");
+    EXPECT_EQ(code_of(path("new.csv")), "");
+    EXPECT_EQ(code_of("/dev/null"), "");
+    EXPECT_EQ(code_of("-"), "");
+    EXPECT_EQ(code_of(file("picture.png", "\x89PNG\r\n"), "png"), "");
+    EXPECT_EQ(code_of(file("summary.json", "{\n  \"world\": \"pile\"\n}\n"), "summary"), "");
+}
+
+TEST_F(Outputs, AreNotWrittenIntoOneFile) {
+    OutputCheck check;
+    check.writes("--trace", path("out.csv"), "trace");
+    check.writes("--contacts", path("./out.csv"), "contacts");
+    EXPECT_EQ(code(check), "output-twice");
+    OutputCheck apart;
+    apart.writes("--trace", "-", "trace");
+    apart.writes("--contacts", "-", "contacts");
+    apart.writes("--json", "/dev/null", "summary");
+    apart.writes("--save", "/dev/null", "saved state");
+    EXPECT_EQ(code(apart), "");
+}
+
+}  // namespace
+}  // namespace roboss::test
