@@ -19,6 +19,8 @@
 #include "client/triggers/triggers.h"
 #include "core/float_env.h"
 #include "core/hash.h"
+#include "model/on_ground.h"
+#include "physics/start_overlaps.h"
 #include "scene/scene_codec.h"
 #include "scene/scene_file.h"
 #include "sdf/load_world.h"
@@ -27,11 +29,16 @@
 namespace roboss {
 namespace {
 
-/// Prints warnings and errors in full, notes as a count: `roboss check` prints them all.
+/// Prints warnings, errors and notes about the start in full, other notes as a count: `roboss check` prints
+/// them all.
 void print(const Diagnostics& diagnostics, const std::string& world) {
-    for (const Diagnostic& d : diagnostics.items())
-        if (d.severity != Severity::kNote) fmt::print(stderr, "{}\n", to_text(d));
-    if (const std::size_t notes = diagnostics.count(Severity::kNote); notes > 0)
+    std::size_t notes = 0;
+    for (const Diagnostic& d : diagnostics.items()) {
+        const bool told = is_told_by_run(d);
+        if (told) fmt::print(stderr, "{}\n", to_text(d));
+        notes += told ? 0 : 1;
+    }
+    if (notes > 0)
         fmt::print(stderr, "{} notes about this world; `roboss check {}` prints them\n", notes, world);
 }
 
@@ -50,6 +57,10 @@ std::uint32_t first_simulator_id() {
 }
 
 }  // namespace
+
+bool is_told_by_run(const Diagnostic& d) {
+    return d.severity != Severity::kNote || d.code.starts_with("start-");
+}
 
 void print(const Error& error) {
     fmt::print(stderr, "roboss: {}\n", error.text());
@@ -86,6 +97,8 @@ bool Run::prepare() {
             return print(completed.error()), false;
     if (world && !refused()) model_ = compile(*world, compile_options(), diagnostics);
     if (world) world_speed_ = world->real_time_factor;
+    if (model_ && o_.on_ground) model_ = stood_on_ground(*model_, {world->file, 0}, diagnostics);
+    if (model_ && o_.from.empty()) report_overlaps(*model_, &*world, diagnostics);
     if (model_ && !o_.orders.empty()) orders_ = load_orders(o_.orders, *model_, diagnostics);
     print(diagnostics, o_.world);
     if (!model_ || refused()) {
