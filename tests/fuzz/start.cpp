@@ -102,6 +102,11 @@ double least_gap(const Model& model) {
     return gap;
 }
 
+Finding judged(Finding finding) {
+    finding.failed = !(finding.figure <= kStartErrorMost);
+    return finding;
+}
+
 }  // namespace
 
 Finding run_start(const Request& request) {
@@ -112,16 +117,17 @@ Finding run_start(const Request& request) {
     add_ground(random, world);
     Diagnostics diagnostics;
     const std::shared_ptr<const Model> model = compile(world, {}, diagnostics);
-    if (!model) return {};  // a loop that its start cannot close is an error of the file
+    if (!model || model->robots.empty()) return {};  // a loop that no start closes is an error of the file
     Finding finding = judge_joints(*model, diagnostics);
+    const RobotType& type = model->types.front();
+    if (!type.free_base || type.shapes.empty()) return judged(finding);  // it stays where it is
     const double gap = least_gap(*stood_on_ground(*model, {}, diagnostics));
     if (!(std::fabs(gap) <= finding.figure)) {
         finding.figure = std::fabs(gap);
         finding.text = amount("gap between the robot and the ground", gap);
     }
     if (request.print_line) request.print_line(amount("gap", gap));
-    finding.failed = !(finding.figure <= kStartErrorMost);
-    return finding;
+    return judged(finding);
 }
 
 }  // namespace roboss::fuzz

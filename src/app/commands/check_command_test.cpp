@@ -195,8 +195,8 @@ TEST(CheckCommand, AWrongOptionIsRefused) {
 
 std::string codes(const Outcome& outcome) {
     std::string text;
-    for (const auto& d : nlohmann::json::parse(outcome.printed)["diagnostics"])
-        text += d["code"].get<std::string>() + " ";
+    const nlohmann::json report = nlohmann::json::parse(outcome.printed);
+    for (const auto& d : report["diagnostics"]) text += d["code"].get<std::string>() + " ";
     return text;
 }
 

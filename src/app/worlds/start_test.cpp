@@ -18,7 +18,9 @@ struct Start {
     explicit Start(const std::string& text, bool on_ground = false) {
         auto world = load_world_text(text, "start", {}, diagnostics);
         if (!world) return;
-        if (on_ground) EXPECT_TRUE(complete(*world, {.ground = true}));
+        if (on_ground) {
+            EXPECT_TRUE(complete(*world, {.ground = true, .fixed_base = {}}));
+        }
         model = compile(*world, {}, diagnostics);
         if (model && on_ground) model = stood_on_ground(*model, {}, diagnostics);
         if (model) report_overlaps(*model, &*world, diagnostics);
@@ -142,7 +144,7 @@ TEST(Start, OfARobotWhoseFilePutsItsLegsIntoTheGround) {
     EXPECT_FALSE(bare.has("start-overlap")) << "there is no ground";
     Diagnostics found;
     auto world = load_world_text(biped(), "start", {}, found);
-    ASSERT_TRUE(complete(*world, {.ground = true}));
+    ASSERT_TRUE(complete(*world, {.ground = true, .fixed_base = {}}));
     report_overlaps(*compile(*world, {}, found), &*world, found);
     std::string told;
     for (const Diagnostic& d : found.items())
