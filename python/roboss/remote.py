@@ -119,13 +119,13 @@ class RemoteSimulation(Run):
         self._change(self._core.restore)
 
     def spawn(self, source: Union[str, os.PathLike], name: Union[None, str, Sequence[str]] = None,
-              pose: ArrayLike = (0, 0, 0, 0, 0, 0, 1)) -> Robots:
+              pose: ArrayLike = (0, 0, 0, 0, 0, 0, 1), *, on_ground: bool = False) -> Robots:
         """Adds the models of a file, or copies of its only model, at the present tick. They are at rest.
 
         Args:
             source: path or text of an SDFormat, URDF or MJCF file. Files that it refers to (meshes) are looked up on the
                 Controller's computer.
-            name, pose: as of Simulation.spawn.
+            name, pose, on_ground: as of Simulation.spawn.
 
         Returns the robots that came. Robots that were asked for before raise StateError from now on; ask `robots` again.
 
@@ -141,7 +141,7 @@ class RemoteSimulation(Run):
         names = [""] if name is None else [name] if isinstance(name, str) else list(name)
         before = set(self.world.robots)
         self._change(self._core.add, "<text>" if is_text else source, content, names,
-                     filled("pose", pose, (len(names), 7)).tolist())
+                     filled("pose", pose, (len(names), 7)).tolist(), on_ground)
         return self.robots([robot for robot in self.world.robots if robot not in before])
 
     def remove(self, robots: Union[str, Iterable[str], Robots]) -> None:

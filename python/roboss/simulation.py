@@ -2,12 +2,13 @@
 from __future__ import annotations
 
 import os
+import warnings
 from typing import Iterable, Optional, Sequence, Union
 
 from numpy.typing import ArrayLike
 
 from . import _core
-from .errors import ArgumentError, StateError
+from .errors import ArgumentError, StateError, WorldWarning
 from .names import filled, instance, whole
 from .robots import Robots
 from .run import Run
@@ -106,7 +107,7 @@ class Simulation(Run):
         self._core.reset(None if seed is None else whole("seed", seed))
 
     def spawn(self, source: Union[World, str, os.PathLike], name: Union[None, str, Sequence[str]] = None,
-              pose: ArrayLike = (0, 0, 0, 0, 0, 0, 1)) -> Robots:
+              pose: ArrayLike = (0, 0, 0, 0, 0, 0, 1), *, on_ground: bool = False) -> Robots:
         """Adds the models of a world, or copies of its only model, at the present tick. They are at rest.
 
         Args:
@@ -114,9 +115,12 @@ class Simulation(Run):
             name: of the model in this world, or names of several copies; None: as it is called in `source`.
             pose: where the origin of `source` is in this world: x y z (m), quaternion x y z w; shape (7,), or (copies,
                 7).
+            on_ground: stand them on the scenery below that place, with their lowest collision shape.
 
         Returns the robots that came. Robots that were asked for before raise StateError (code "changed-world") from now
         on; ask `robots` again. All others keep every bit of their states. `reset` puts the new ones where they came.
+
+        A WorldWarning tells of robots that start deep in others or in the scenery.
 
         Raises:
             WorldError: a name is taken (code "name-taken"), another `dt` ("other-step"), or `load` refuses the source.
@@ -137,7 +141,10 @@ class Simulation(Run):
         names = [""] if name is None else [name] if isinstance(name, str) else list(name)
         poses = filled("pose", pose, (len(names), 7)).tolist()
         before = len(self.world.robots)
-        core, model, _ = self._core.spawn(addition._model, names, poses)
+        core, model, findings = self._core.spawn(addition._model, names, poses, on_ground)
+        for finding in findings:
+            if finding.severity != "note":
+                warnings.warn(str(finding), WorldWarning, stacklevel=2)
         frames = self.world._frames or [()] * before
         new = len(model.robots) - before
         looks = self.world._looks.with_copies(addition._looks, addition._model, names, poses)

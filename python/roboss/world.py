@@ -107,7 +107,7 @@ class TypeFacts:
 
 def load(source: Union[str, os.PathLike], *, search_paths: Iterable[Union[str, os.PathLike]] = (), profile: str = "",
          ground: bool = False, fixed_base: Iterable[str] = (), dt: Optional[float] = None, sleep: Optional[bool] = None,
-         accuracy: str = "", precision: Optional[str] = None, strict: bool = False) -> World:
+         accuracy: str = "", precision: Optional[str] = None, strict: bool = False, on_ground: bool = False) -> World:
     """Reads and compiles a world.
 
     Args:
@@ -121,6 +121,7 @@ def load(source: Union[str, os.PathLike], *, search_paths: Iterable[Union[str, o
         accuracy: "fast", "standard" or "high"; "": the world's choice.
         precision: "double" or "float", in which lone robots are stepped; None: the world's choice.
         strict: refuse a world of which a model had to be left out.
+        on_ground: stand the robots on the ground, box or mesh below them, with their lowest collision shape.
 
     Raises:
         WorldError: the world cannot be used; its text has all errors with file and line.
@@ -133,16 +134,18 @@ def load(source: Union[str, os.PathLike], *, search_paths: Iterable[Union[str, o
     >>> world = roboss.load('''<robot name="ball"><link name="body">
     ...   <inertial><mass value="1"/><inertia ixx=".1" iyy=".1" izz=".1" ixy="0" ixz="0" iyz="0"/></inertial>
     ...   <collision><geometry><sphere radius="0.1"/></geometry></collision>
-    ... </link></robot>''', ground=True)
+    ... </link></robot>''', ground=True, on_ground=True)
     >>> world.robots
     ('ball',)
+    >>> roboss.Simulation(world).robots().pose[0, 2].round(6)
+    0.1
     """
     if precision not in (None, "double", "float"):
         raise ArgumentError(f"a precision of {precision!r}", "give 'double', 'float' or None")
     source = os.fspath(source)
     is_text = source.lstrip().startswith("<")
     model, findings, frames, looks = _core.load(source, is_text, [os.fspath(path) for path in search_paths], profile, ground,
-                                         list(fixed_base), dt, sleep, accuracy, precision and precision == "float")
+                                         list(fixed_base), dt, sleep, accuracy, precision and precision == "float", on_ground)
     errors = [finding for finding in findings if finding.severity == "error"]
     if model is None or (strict and errors):
         file = "the text" if is_text else f"'{source}'"

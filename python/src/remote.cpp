@@ -81,10 +81,12 @@ std::string change(Remote& remote, const ControlAction& action) {
 }
 
 std::string add(Remote& remote, const std::string& file, const std::string& content,
-                const std::vector<std::string>& names, const std::vector<std::array<double, 7>>& poses) {
+                const std::vector<std::string>& names, const std::vector<std::array<double, 7>>& poses,
+                bool on_ground) {
     AddModels request{file, content, pose_at(poses.front().data()), names.front()};
     for (std::size_t i = 0; names.size() > 1 && i < names.size(); ++i)
         request.copies.push_back({names[i], pose_at(poses[i].data())});
+    request.on_ground = on_ground;
     return change(remote, request);
 }
 
@@ -128,7 +130,8 @@ void bind_remote(nb::module_& module) {
     nb::class_<Remote>(module, "Remote")
         .def("step", &step, nb::arg("ticks"))
         .def("control", &control, nb::arg("words"))
-        .def("add", &add, nb::arg("file"), nb::arg("content"), nb::arg("names"), nb::arg("poses"))
+        .def("add", &add, nb::arg("file"), nb::arg("content"), nb::arg("names"), nb::arg("poses"),
+             nb::arg("on_ground"))
         .def(
             "remove",
             [](Remote& r, const std::vector<std::string>& names) { return change(r, RemoveRobots{names}); },

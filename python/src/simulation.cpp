@@ -18,6 +18,7 @@
 #include "looks.h"
 #include "roboss/math/array_rows.h"
 #include "roboss/model/edit.h"
+#include "roboss/physics/start_overlaps.h"
 
 namespace nb = nanobind;
 using namespace roboss;
@@ -101,12 +102,23 @@ Edited edited(Simulation& simulation, const Result<ModelEdit>& edit) {
     return {std::make_shared<Simulation>(change.model, std::move(run)), change.model, std::move(now)};
 }
 
-Edited spawn(Simulation& simulation, const std::shared_ptr<const Model>& addition,
-             const std::vector<std::string>& names, const std::vector<std::array<double, 7>>& poses) {
+/// The same, and what is found about the start of the robots that came.
+using Spawned =
+    std::tuple<std::shared_ptr<Simulation>, std::shared_ptr<const Model>, std::vector<Diagnostic>>;
+
+Spawned spawn(Simulation& simulation, const std::shared_ptr<const Model>& addition,
+              const std::vector<std::string>& names, const std::vector<std::array<double, 7>>& poses,
+              bool on_ground) {
     std::vector<CopyPlace> places;
     for (std::size_t i = 0; i < names.size(); ++i) places.push_back({names[i], pose_at(poses[i].data())});
-    simulation.run();  // nobody is inside
-    return edited(simulation, with_models(*simulation.model(), *addition, places));
+    const std::vector<RobotState>& states = simulation.run().states();  // nobody is inside
+    const ModelEdit edit = value_or_raise(with_models(*simulation.model(), *addition, places,
+                                                      on_ground ? Standing::kOnGround : Standing::kAsPlaced),
+                                          "WorldError");
+    Diagnostics found = edit.found;
+    report_overlaps(*edit.model, carry_over(edit, states), states.size(), found);
+    Edited gone_on = edited(simulation, edit);
+    return {std::get<0>(gone_on), std::get<1>(gone_on), found.items()};
 }
 
 Edited remove(Simulation& simulation, const std::vector<std::string>& names) {
@@ -162,7 +174,7 @@ void bind_simulation(nb::module_& module) {
             nb::arg("looks"), nb::arg("threads"))
         .def("turn_view", &Simulation::turn_view)
         .def("retire", &Simulation::retire)
-        .def("spawn", &spawn, nb::arg("addition"), nb::arg("names"), nb::arg("poses"))
+        .def("spawn", &spawn, nb::arg("addition"), nb::arg("names"), nb::arg("poses"), nb::arg("on_ground"))
         .def("remove", &remove, nb::arg("names"))
         .def(
             "attach",

@@ -16,6 +16,8 @@
 #include "looks.h"
 #include "roboss/local/robot_set.h"
 #include "roboss/math/array_rows.h"
+#include "roboss/model/on_ground.h"
+#include "roboss/physics/start_overlaps.h"
 #include "roboss/sdf/load_world.h"
 #include "roboss/world/bare_model.h"
 #include "roboss/world/joint_type.h"
@@ -34,6 +36,7 @@ struct Wanted {
     LoadOptions load;
     BareModelOptions bare;
     CompileOptions compile;
+    bool on_ground = false;
 };
 
 /// (name, place of its link, pose x y z, quaternion x y z w in the link's frame) of each frame, by robot.
@@ -71,6 +74,8 @@ Loaded load(const Wanted& wanted) {
         else
             model = compile(*world, wanted.compile, diagnostics);
     }
+    if (model && wanted.on_ground) model = stood_on_ground(*model, {world->file, 0}, diagnostics);
+    if (model) report_overlaps(*model, &*world, diagnostics);
     if (diagnostics.refuses()) model = nullptr;
     if (!model) return {nullptr, diagnostics.items(), Frames{}, LooksOf{}};
     Frames frames = frames_of(*world, *model);
@@ -219,20 +224,21 @@ void bind_world(nb::module_& module) {
         "load",
         [](std::string source, bool is_text, std::vector<std::string> search_paths, std::string profile,
            bool ground, std::vector<std::string> fixed_base, std::optional<double> dt,
-           std::optional<bool> sleep, std::string accuracy, std::optional<bool> floats) {
+           std::optional<bool> sleep, std::string accuracy, std::optional<bool> floats, bool on_ground) {
             Wanted wanted{std::move(source),
                           is_text,
                           {std::move(search_paths), std::move(profile), false},
                           {ground, std::move(fixed_base)},
                           {.dt_s = dt, .sleep = sleep}};
             wanted.compile.accuracy.setting = std::move(accuracy);
+            wanted.on_ground = on_ground;
             if (floats) wanted.compile.precision = *floats ? Precision::kFloat : Precision::kDouble;
             const nb::gil_scoped_release release;
             return load(wanted);
         },
         nb::arg("source"), nb::arg("is_text"), nb::arg("search_paths"), nb::arg("profile"), nb::arg("ground"),
         nb::arg("fixed_base"), nb::arg("dt").none(), nb::arg("sleep").none(), nb::arg("accuracy"),
-        nb::arg("floats").none());
+        nb::arg("floats").none(), nb::arg("on_ground"));
 }
 
 }  // namespace roboss_python

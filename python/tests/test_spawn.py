@@ -50,6 +50,20 @@ def test_a_ball_that_came_rests_on_the_ground_and_touches(sim):
     assert number in sim.contacts["robot_a"] or number in sim.contacts["robot_b"]
 
 
+def test_robots_stand_on_the_ground_where_that_is_asked_for(sim):
+    balls = sim.spawn(BALL, ["low", "high"], [[50, 50, -3, 0, 0, 0, 1], [50, 52, 7, 0, 0, 0, 1]], on_ground=True)
+    assert np.allclose(balls.pose[:, 2], 0.1, atol=1e-6)
+    world = roboss.load(BALL, ground=True, on_ground=True)
+    assert roboss.Simulation(world).robots().pose[0, 2] == pytest.approx(0.1, abs=1e-6)
+
+
+def test_robots_deep_in_the_ground_are_a_warning(sim):
+    with pytest.warns(roboss.WorldWarning, match="deep"):
+        sim.spawn(BALL, "deep", [50, 50, 0, 0, 0, 0, 1])
+    with pytest.warns(roboss.WorldWarning, match="deep"):
+        roboss.load(BALL, ground=True)
+
+
 def test_old_robots_say_that_the_world_changed(sim):
     cars = sim.robots("car_*")
     laser = cars["laser"]

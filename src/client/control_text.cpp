@@ -172,11 +172,16 @@ Result<std::vector<CopyPlace>> copies_of(const std::string& text) {
     return copies;
 }
 
+constexpr const char* kOnGround = "on-ground";  // last word of an addition
+
 Parsed add(const Words& words) {
     const std::optional<Pose> X_WA = pose_of(words[3]);
     if (!X_WA) return bad_pose(words[3], "give \"x y z roll pitch yaw\", m and rad");
     AddModels add{words[1], words[2], *X_WA, words[4]};
-    if (words.size() < 6) return add;
+    add.on_ground = words.size() > 5 && words.back() == kOnGround;
+    const std::size_t rest = words.size() - (add.on_ground ? 1 : 0);
+    if (rest < 6) return add;
+    if (rest > 6) return bad_value(words, "the word behind the copies is on-ground, or none");
     Result<std::vector<CopyPlace>> copies = copies_of(words[5]);
     if (!copies) return copies.error();
     add.copies = std::move(copies).value();
@@ -216,7 +221,7 @@ Parsed parse(const Words& words) {
     if (verb == "preview" && n == 2) return preview(words);
     if (verb == "bookmark" && (n == 2 || n == 3)) return bookmark(words);
     if (verb == "accuracy" && n >= 2) return accuracy(words);
-    if (verb == "add" && (n == 5 || n == 6)) return add(words);
+    if (verb == "add" && n >= 5 && n <= 7) return add(words);
     if (verb == "remove" && n >= 2) return RemoveRobots{{words.begin() + 1, words.end()}};
     if (verb == "copy" && n >= 4 && n % 3 == 1) return copy(words);
     if (verb == "restore" && n >= 2) return RestoreRobots{{words.begin() + 1, words.end()}};

@@ -1,11 +1,14 @@
-// Settles the start of a robot with loops or couplings: Newton's method with the shortest step (minimum norm)
-// on the joint coordinates, led from the zero configuration, where every loop of a file is closed, so that it
-// ends on the branch that the file draws.
+// Settles the start of a robot. First its joints get within their limits and followers to their leaders
+// (joint_start.h). Loops that are open then, and couplings that are, close by Newton's method with the
+// shortest step (minimum norm) on the joint coordinates, led from the zero configuration, where every loop of
+// a file is closed, so that it ends on the branch that the file draws. What would leave its limits is held
+// there.
 #include <algorithm>
 #include <cmath>
 
 #include "model/compile_loops.h"
 #include "model/coordinates.h"
+#include "model/joint_start.h"
 #include "model/loop_closure.h"
 
 namespace roboss {
@@ -21,9 +24,9 @@ struct Gap {
 
 class StartClosure {
   public:
-    explicit StartClosure(RobotType& type)
+    StartClosure(const RobotType& type, const std::vector<double>& joints)
         : type_(type), base_(static_cast<std::size_t>(type.base_nv())), q_{0, 0, 0, 1, 0, 0, 0} {
-        q_.insert(q_.end(), type.initial_q.begin(), type.initial_q.end());
+        q_.insert(q_.end(), joints.begin(), joints.end());
         held_.assign(static_cast<std::size_t>(type.nv), 0);
     }
 
@@ -51,18 +54,50 @@ class StartClosure {
             }
             left = settle();
         }
-        return left;
+        return within_limits(left);
     }
 
     Gap lead_none() {
         std::fill(held_.begin(), held_.end(), 0);
-        return settle();
+        return within_limits(settle());
     }
 
     std::vector<double> joint_coordinates() const { return {q_.begin() + 7, q_.end()}; }
 
+    /// Joints that are beyond their limits, in RobotType::dofs.
+    std::vector<std::size_t> beyond() const {
+        std::vector<std::size_t> result;
+        for (std::size_t i = 0; i < type_.dofs.size(); ++i)
+            if (body_of(i).nv == 1 && !starts_within(type_.dofs[i], value(i))) result.push_back(i);
+        return result;
+    }
+
   private:
     static std::size_t coordinate(const Body& body) { return static_cast<std::size_t>(body.q_index); }
+
+    const Body& body_of(std::size_t dof) const {
+        return type_.bodies[static_cast<std::size_t>(type_.dofs[dof].body)];
+    }
+
+    /// Holds what left its limits there, and closes with the others; as it was if that does not close.
+    Gap within_limits(const Gap& closed) {
+        const std::vector<double> q = q_;
+        const std::vector<char> held = held_;
+        Gap left = closed;
+        for (std::size_t round = 0; round < type_.dofs.size() && left.closed(); ++round) {
+            const std::vector<std::size_t> out = beyond();
+            if (out.empty()) return left;
+            for (const std::size_t dof : out) {
+                double& at = q_[coordinate(body_of(dof))];
+                at = std::clamp(at, type_.dofs[dof].lower, type_.dofs[dof].upper);
+                held_[base_ + dof] = 1;
+            }
+            left = settle();
+        }
+        if (left.closed() || !closed.closed()) return left;
+        q_ = q, held_ = held;
+        return gap();
+    }
 
     Gap settle() {
         constexpr int kStepsMax = 60;
@@ -97,9 +132,7 @@ class StartClosure {
         }
     }
 
-    double value(std::size_t dof) const {
-        return q_[coordinate(type_.bodies[static_cast<std::size_t>(type_.dofs[dof].body)])];
-    }
+    double value(std::size_t dof) const { return q_[coordinate(body_of(dof))]; }
 
     double* add_row(double error, bool way) {
         double& largest = way ? gap_.way : gap_.angle;
@@ -154,7 +187,7 @@ class StartClosure {
         }
     }
 
-    RobotType& type_;
+    const RobotType& type_;
     std::size_t base_;
     std::vector<double> q_;
     std::vector<char> held_;  // one an entry of v
@@ -163,29 +196,68 @@ class StartClosure {
     Gap gap_;
 };
 
+struct Closing {
+    Gap gap;
+    bool moved_given = false;  // not as the file says: nothing was held
+};
+
+/// Closes loops and couplings, within limits if that is possible.
+Closing close_loops(const RobotType& type, std::vector<double>& joints, JointStart& start) {
+    if (!type.has_equalities()) return {};
+    StartClosure closure(type, joints);
+    Closing result{closure.gap()};
+    if (result.gap.closed()) return result;
+    result.gap = closure.lead();
+    const bool as_given = result.gap.closed();
+    const std::vector<double> led = closure.joint_coordinates();
+    start.beyond = closure.beyond();
+    if (!as_given || !start.beyond.empty()) {
+        const Gap gap = closure.lead_none();
+        result.moved_given = gap.closed() && (!as_given || closure.beyond().empty());
+        if (!as_given) result.gap = gap;
+    }
+    if (!result.gap.closed()) return result;
+    joints = led;
+    if (!result.moved_given) return result;
+    joints = closure.joint_coordinates();
+    start.beyond = closure.beyond();
+    return result;
+}
+
 }  // namespace
 
 void close_start(const ModelSpec& spec, RobotType& type, Diagnostics& diagnostics) {
-    if (!type.has_equalities()) return;
-    StartClosure closure(type);
-    if (closure.gap().closed()) return;
-    Gap gap = closure.lead();
-    const bool moved_given = !gap.closed();
-    if (moved_given) gap = closure.lead_none();
-    if (!gap.closed()) {
+    JointStart start = settle_joints(type, type.initial_q);
+    const Closing closing = close_loops(type, type.initial_q, start);
+    if (!closing.gap.closed()) {
         diagnostics.error(spec.where, "open-loop",
                           "the loops of model '" + spec.name + "' cannot be closed at its start: a gap of " +
-                              std::to_string(gap.way) + " m or " + std::to_string(gap.angle) + " rad is left",
+                              std::to_string(closing.gap.way) + " m or " + std::to_string(closing.gap.angle) +
+                              " rad is left",
                           "Correct <initial_position>, the joints' poses, or the offsets of mimic joints.");
         return;
     }
-    type.initial_q = closure.joint_coordinates();
-    if (moved_given)
+    if (closing.moved_given)
         diagnostics.warning(spec.where, "start-moved",
                             "the loops of model '" + spec.name +
-                                "' do not close at the <initial_position>s given; "
-                                "the joints start elsewhere",
+                                "' do not close, within the limits of its joints, at the "
+                                "<initial_position>s given; the joints start elsewhere",
                             "Give the start of as many joints as the mechanism is free to move.");
+    else
+        report(start.moved, type, spec.name, spec.where, diagnostics);
+    report_beyond(start.beyond, type, type.initial_q, spec.name, spec.where, diagnostics);
+}
+
+void settle_robot(const RobotType& type, Robot& robot, const SourceLocation& where,
+                  Diagnostics& diagnostics) {
+    if (robot.start_q.empty()) return;
+    std::vector<double> joints = robot.start_q;
+    JointStart start = settle_joints(type, joints);
+    if (joints == robot.start_q) return;
+    if (!type.loops.empty()) close_loops(type, joints, start);
+    robot.start_q = joints;
+    report(start.moved, type, robot.name, where, diagnostics);
+    report_beyond(start.beyond, type, joints, robot.name, where, diagnostics);
 }
 
 }  // namespace roboss

@@ -35,8 +35,12 @@ std::vector<CouplingSpec> find_couplings(const ModelSpec& spec, Diagnostics& dia
 /// Adds those whose follower this robot has.
 void add_couplings(const std::vector<CouplingSpec>& couplings, RobotType& type, Diagnostics& diagnostics);
 
-/// Moves the start coordinates (RobotType::initial_q) so that loops and couplings hold: first those that the
-/// file leaves at zero, if that is not enough all of them. An error tells the gap that is left.
+/// Settles the start coordinates (RobotType::initial_q): within limits, followers where their leaders put
+/// them (joint_start.h), then loops closed: first by joints that the file leaves at zero, if that is not
+/// enough by all of them. An error tells the gap that is left.
 void close_start(const ModelSpec& spec, RobotType& type, Diagnostics& diagnostics);
+
+/// The same for a robot that starts elsewhere than its type does (Robot::start_q).
+void settle_robot(const RobotType& type, Robot& robot, const SourceLocation& where, Diagnostics& diagnostics);
 
 }  // namespace roboss

@@ -9,6 +9,7 @@
 
 #include "model/accuracy.h"
 #include "model/compile_type.h"
+#include "model/on_ground.h"
 #include "model/robot_names.h"
 #include "model/seal.h"
 
@@ -24,7 +25,7 @@ std::vector<RobotId> all_stay(const Model& model) {
 
 ModelEdit sealed(std::shared_ptr<Model> model, std::vector<RobotId> now, bool scenery_changed) {
     seal(*model);
-    return {std::move(model), std::move(now), scenery_changed};
+    return {std::move(model), std::move(now), scenery_changed, {}};
 }
 
 /// The place of this type in the Model, where it is put if no equal one is there.
@@ -120,14 +121,18 @@ class Extension {
         return Ok{};
     }
 
-    ModelEdit finish() {
+    ModelEdit finish(Standing standing) {
         Model& model = *model_;
+        Diagnostics found;
+        if (standing == Standing::kOnGround) report(stand_on_ground(model, old_robots_), {}, found);
         model.hulls.insert(model.hulls.end(), addition_.hulls.begin(), addition_.hulls.end());
         model.surfaces.insert(model.surfaces.end(), addition_.surfaces.begin(), addition_.surfaces.end());
         remove_unused_shapes(model);
         std::vector<RobotId> now;
         for (std::size_t i = 0; i < old_robots_; ++i) now.emplace_back(i);
-        return sealed(std::move(model_), std::move(now), !addition_.statics.empty());
+        ModelEdit edit = sealed(std::move(model_), std::move(now), !addition_.statics.empty());
+        edit.found = std::move(found);
+        return edit;
     }
 
   private:
@@ -286,7 +291,8 @@ Result<ModelEdit> with_models(const Model& model, const Model& addition, const P
     return with_models(model, addition, {&place, 1});
 }
 
-Result<ModelEdit> with_models(const Model& model, const Model& addition, std::span<const CopyPlace> places) {
+Result<ModelEdit> with_models(const Model& model, const Model& addition, std::span<const CopyPlace> places,
+                              Standing standing) {
     if (addition.dt_s != model.dt_s)
         return Error{"the addition was compiled for a step of " + std::to_string(addition.dt_s) +
                          " s, the world has " + std::to_string(model.dt_s) + " s",
@@ -296,7 +302,7 @@ Result<ModelEdit> with_models(const Model& model, const Model& addition, std::sp
     Extension extension(model, addition, places.size());
     for (const CopyPlace& place : places)
         if (Result<> added = extension.add(place); !added) return added.error();
-    return extension.finish();
+    return extension.finish(standing);
 }
 
 Result<ModelEdit> with_robots(const Model& model, std::span<const RobotFrom> robots) {

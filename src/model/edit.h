@@ -16,11 +16,18 @@
 
 namespace roboss {
 
+/// How high robots that come start.
+enum class Standing {
+    kAsPlaced,  ///< where they are put
+    kOnGround   ///< on the scenery below, which includes that of the addition (model/on_ground.h)
+};
+
 /// The new Model, and how to get there from the old one.
 struct ModelEdit {
     std::shared_ptr<const Model> model;  ///< the new one
     std::vector<RobotId> now;            ///< by the old RobotId: the new one; not valid: it is gone
     bool scenery_changed = false;        ///< all sleepers wake
+    Diagnostics found{};                 ///< about the start of what came
 };
 
 /// The accuracy set anew, after the world's own and in this order of settings and numbers.
@@ -35,7 +42,8 @@ Result<ModelEdit> with_models(const Model& model, const Model& addition, const P
                               const std::string& name);
 /// The same once for each place: one edit, however many copies. Refuses all of them if a name is taken or two
 /// copies have the same. Error codes: name-taken, other-step, no-model.
-Result<ModelEdit> with_models(const Model& model, const Model& addition, std::span<const CopyPlace> places);
+Result<ModelEdit> with_models(const Model& model, const Model& addition, std::span<const CopyPlace> places,
+                              Standing standing = Standing::kAsPlaced);
 
 /// A robot of some Model that is to come to another one, or to its own once more.
 struct RobotFrom {

@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "model/compile_type.h"
+#include "model/may_collide.h"
 
 namespace roboss {
 
@@ -28,6 +29,10 @@ Material to_material(const SurfaceSpec& surface) {
     m.collide_bitmask = surface.collide_bitmask;
     m.category_bitmask = surface.category_bitmask;
     return m;
+}
+
+bool may_collide(const Material& a, const Material& b) {
+    return ((a.category_bitmask & b.collide_bitmask) | (b.category_bitmask & a.collide_bitmask)) != 0;
 }
 
 void add_to_hash(Hash& hash, const Material& m) {

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 
+#include "model/compile_loops.h"
 #include "model/coordinates.h"
 #include "world/joint_type.h"
 
@@ -268,6 +269,7 @@ void set_start(const ModelInstance& instance, const RobotType& type, Robot& robo
     if (!fit.take(instance)) return;
     fit.fit();
     fit.put(robot);
+    settle_robot(type, robot, instance.where, diagnostics);
     constexpr double kFits = 1e-3;  // saved poses have six digits, and Gazebo's joints give a little
     if (const double gap = fit.gap(); gap > kFits)
         diagnostics.note(instance.where, "start-does-not-fit",

@@ -255,7 +255,7 @@ template <class A> void field(A& a, Of<A, RewindRun>& m) { auto& [branch, time_s
 template <class A> void field(A& a, Of<A, ChangeAccuracy::Number>& m) { auto& [name, value] = m; fields(a, name, value); }
 template <class A> void field(A& a, Of<A, ChangeAccuracy>& m) { auto& [setting, numbers] = m; fields(a, setting, numbers); }
 template <class A> void field(A& a, Of<A, CopyPlace>& m) { auto& [name, X_WA] = m; auto& [p, q] = X_WA; fields(a, name, p, q); }
-template <class A> void field(A& a, Of<A, AddModels>& m) { auto& [file, content, X_WA, name, copies] = m; auto& [p, q] = X_WA; fields(a, file, content, p, q, name, copies); }
+template <class A> void field(A& a, Of<A, AddModels>& m) { auto& [file, content, X_WA, name, copies, on_ground] = m; auto& [p, q] = X_WA; fields(a, file, content, p, q, name, copies, on_ground); }
 template <class A> void field(A& a, Of<A, RemoveRobots>& m) { auto& [names] = m; fields(a, names); }
 template <class A> void field(A& a, Of<A, CopyRobots::Copy>& m) { auto& [robot, name, X_WR] = m; auto& [p, q] = X_WR; fields(a, robot, name, p, q); }
 template <class A> void field(A& a, Of<A, CopyRobots>& m) { auto& [copies] = m; fields(a, copies); }

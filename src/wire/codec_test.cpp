@@ -122,7 +122,7 @@ std::vector<Message> every_control_message() {
           ControlAction(QuitRun{}),
           ControlAction(RewindRun{2, 12.5}),
           ControlAction(ChangeAccuracy{"high", {{"tolerance", 1e-10}}}),
-          ControlAction(AddModels{"ball.sdf", "<sdf/>", {{1, 2, 3}, {}}, "ball"}),
+          ControlAction(AddModels{"ball.sdf", "<sdf/>", {{1, 2, 3}, {}}, "ball", {}, true}),
           ControlAction(AddModels{"ball.sdf", "<sdf/>", {}, "", {{"a", {{1, 2, 3}, {}}}, {"b", {}}}}),
           ControlAction(RemoveRobots{{"a", "b"}}),
           ControlAction(ResetRun{ResetRun::To::kLastSave}),

@@ -180,6 +180,7 @@ struct AddModels {
     std::string name;     // in the world; empty: the name in the file
     /// If there are any: a copy at each, instead of one at X_WA by `name`.
     std::vector<CopyPlace> copies{};
+    bool on_ground = false;  ///< they are stood on the scenery below their places
     /// Compares all members.
     friend bool operator==(const AddModels&, const AddModels&) = default;
 };

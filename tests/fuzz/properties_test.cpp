@@ -47,6 +47,10 @@ TEST(Property, EnergyOfPassiveMechanismsNeverGrows) {
         {"energy", 84, 10, {"tree", "bare", "anchored", "hanging", "loop", "coupled", "idle-motors"}});
 }
 
+TEST(Property, JointsStartWithinLimitsAndRobotsStandOnTheGround) {
+    expect_holds({"start", 150, 0});
+}
+
 TEST(Property, EnergyAndMomentumOfNetsStay) {
     expect_holds({"energy", 12, 1, {"net"}});
     expect_holds({"momentum", 12, 1, {"net"}});

@@ -52,10 +52,12 @@ std::vector<std::string> kinds_where(bool (*wanted)(const SceneKind&));
 
 // The bounds.
 inline constexpr double kEnergyGrowthMost = 1e-3;   // of itself
+inline constexpr double kStartErrorMost = 1e-6;     // m or rad
 inline constexpr double kMomentumDriftMost = 1e-6;  // of what the links' momenta amount to
 
 Finding run_energy(const Request& request);
 Finding run_momentum(const Request& request);
+Finding run_start(const Request& request);
 Finding run_finite(const Request& request);
 Finding run_ghost(const Request& request);
 Finding run_tunnel(const Request& request);

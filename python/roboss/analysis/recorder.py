@@ -175,6 +175,7 @@ def journal_of_run(world: Union[str, os.PathLike], until: float, folder: Union[s
 def _words(options: Mapping[str, Any]) -> list[str]:
     """Options of load() as those of `roboss run`."""
     words = ["--ground"] if options.get("ground") else []
+    words += ["--on-ground"] if options.get("on_ground") else []
     words += ["--dt", repr(options["dt"])] if options.get("dt") else []
     for option, name in (("--fixed-base", "fixed_base"), ("--path", "search_paths")):
         for value in options.get(name, ()):

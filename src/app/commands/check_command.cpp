@@ -18,7 +18,10 @@
 #include "app/worlds/world_census.h"
 #include "app/worlds/world_names.h"
 #include "model/model.h"
+#include "model/on_ground.h"
+#include "physics/start_overlaps.h"
 #include "sdf/load_world.h"
+#include "world/bare_model.h"
 
 namespace roboss {
 namespace {
@@ -38,6 +41,8 @@ constexpr const char* kHelp =
 
 struct CheckOptions {
     std::vector<std::string> worlds, paths;
+    BareModelOptions bare;
+    bool on_ground = false;
     bool json = false, all = false, names = false;
 };
 
@@ -212,10 +217,16 @@ nlohmann::json to_json(const std::vector<PluginReport>& plugins) {
 /// Prints the report on one file, or adds it to `reports`. Returns its exit code.
 int check(const std::string& file, const CheckOptions& options, nlohmann::json& reports) {
     Diagnostics diagnostics;
-    const std::optional<World> world = load_world(file, {options.paths}, diagnostics);
+    std::optional<World> world = load_world(file, {options.paths}, diagnostics);
+    if (world)
+        if (const Result<> completed = complete(*world, options.bare); !completed)
+            diagnostics.error({file, 0}, completed.error().code, completed.error().message,
+                              completed.error().remedy);
     // Compiling finds errors of the joint graph: loops, unconnected parts.
     std::shared_ptr<const Model> model;
     if (world && !diagnostics.refuses()) model = compile(*world, {}, diagnostics);
+    if (model && options.on_ground) model = stood_on_ground(*model, {file, 0}, diagnostics);
+    if (model) report_overlaps(*model, &*world, diagnostics);
     const bool runs = model != nullptr;
     const auto commands = runs ? list_commands(*model) : std::vector<TypeCommands>{};
     const auto plugins = world ? list_plugins(*world, model.get(), diagnostics) : std::vector<PluginReport>{};
@@ -274,6 +285,13 @@ void add_check_command(CLI::App& app, int& exit_code) {
                      "folder in which model://, package:// and relative URIs are looked up (may be repeated)")
         ->type_name("DIR")
         ->take_all();
+    command->add_flag("--ground", options->bare.ground, "as of `roboss run`: add a ground plane at z = 0");
+    command
+        ->add_option("--fixed-base", options->bare.fixed_base,
+                     "as of `roboss run`: fix the base of this model to the world (may be repeated)")
+        ->take_all();
+    command->add_flag("--on-ground", options->on_ground,
+                      "as of `roboss run`: stand the robots on the ground below them");
     command->add_flag("--all", options->all, "print every finding (default: one of those that are alike)");
     command->add_flag(
         "--names", options->names,

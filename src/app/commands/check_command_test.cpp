@@ -194,5 +194,28 @@ TEST(CheckCommand, AWrongOptionIsRefused) {
     EXPECT_THROW(app.parse("check"), CLI::ParseError);
 }
 
+std::string codes(const Outcome& outcome) {
+    std::string text;
+    const nlohmann::json report = nlohmann::json::parse(outcome.printed);
+    for (const auto& d : report["diagnostics"]) text += d["code"].get<std::string>() + " ";
+    return text;
+}
+
+TEST(CheckCommand, OnGroundMendsARobotThatStartsInTheGround) {
+    const std::string ball =
+        "<robot name='ball'><link name='l'><inertial><mass value='1'/>"
+        "<inertia ixx='.1' iyy='.1' izz='.1' ixy='0' ixz='0' iyz='0'/></inertial>"
+        "<collision><geometry><sphere radius='.5'/></geometry></collision></link></robot>";
+    EXPECT_EQ(codes(check(ball, {"--json"})).find("start"), std::string::npos) << "it has no ground";
+    const Outcome deep = check(ball, {"--json", "--ground"});
+    EXPECT_EQ(deep.exit_code, 0) << "a warning";
+    EXPECT_NE(codes(deep).find("start-overlap"), std::string::npos) << deep.printed;
+    const Outcome stands = check(ball, {"--json", "--ground", "--on-ground"});
+    EXPECT_EQ(codes(stands).find("start-overlap"), std::string::npos) << stands.printed;
+    EXPECT_NE(codes(stands).find("start-on-ground"), std::string::npos) << stands.printed;
+    EXPECT_NE(codes(check(ball, {"--json", "--on-ground"})).find("start-no-ground"), std::string::npos);
+    EXPECT_EQ(check(ball, {"--json", "--fixed-base", "nobody"}).exit_code, 1);
+}
+
 }  // namespace
 }  // namespace roboss

@@ -60,7 +60,7 @@ struct ControlCommandOptions {
     std::string value, pose = "0 0 0 0 0 0", name;
     std::vector<std::string> values;
     CopyOptions copies;
-    bool overwrite = false, yes = false, json = false;
+    bool overwrite = false, yes = false, json = false, on_ground = false;
 };
 
 using Ask = std::function<void(const std::vector<std::string>&)>;
@@ -145,6 +145,7 @@ void ask_to_add(ControlCommandOptions& o, const Ask& ask, int& exit_code) {
         if (!copies) return print(copies.error());
         words.push_back(std::move(copies).value());
     }
+    if (o.on_ground) words.push_back("on-ground");
     ask(words);
 }
 
@@ -194,6 +195,7 @@ void add_changes(CLI::App& command, ControlCommandOptions& o, const Ask& ask, in
         ->excludes(count)
         ->excludes("--pose")
         ->excludes("--name");
+    sub->add_flag("--on-ground", o.on_ground, "stand them on the scenery below: only x, y and turn count");
     sub->callback([&o, ask, &exit_code] { ask_to_add(o, ask, exit_code); });
 }
 

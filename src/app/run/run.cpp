@@ -21,6 +21,8 @@
 #include "client/triggers/triggers.h"
 #include "core/float_env.h"
 #include "core/hash.h"
+#include "model/on_ground.h"
+#include "physics/start_overlaps.h"
 #include "scene/scene_codec.h"
 #include "scene/scene_file.h"
 #include "sdf/load_world.h"
@@ -40,8 +42,15 @@ std::size_t print_groups(const Diagnostics& findings) {
     return unprinted;
 }
 
+/// Also prints notes about the start.
 void print(const Diagnostics& diagnostics, const std::string& world) {
-    if (const std::size_t unprinted = print_groups(diagnostics); unprinted > 0)
+    std::size_t unprinted = print_groups(diagnostics);
+    for (const FindingGroup& group : group_findings(diagnostics, Severity::kNote))
+        if (is_told_by_run(*group.first)) {
+            fmt::print(stderr, "{}\n", to_text(group));
+            --unprinted;
+        }
+    if (unprinted > 0)
         fmt::print(stderr,
                    "{} more findings or notes about this world; `roboss check {} --all` prints them\n",
                    unprinted, world);
@@ -71,6 +80,10 @@ std::uint32_t first_simulator_id() {
 }
 
 }  // namespace
+
+bool is_told_by_run(const Diagnostic& d) {
+    return d.severity != Severity::kNote || d.code.starts_with("start-");
+}
 
 void print(const Error& error) {
     fmt::print(stderr, "roboss: {}\n", error.text());
@@ -114,6 +127,8 @@ bool Run::prepare() {
             return print(completed.error()), false;
     if (world && !refused()) model_ = compile(*world, compile_options(), diagnostics);
     if (world) world_speed_ = world->real_time_factor;
+    if (model_ && o_.on_ground) model_ = stood_on_ground(*model_, {world->file, 0}, diagnostics);
+    if (model_ && o_.from.empty()) report_overlaps(*model_, &*world, diagnostics);
     Diagnostics order_findings;
     if (model_ && !o_.orders.empty()) orders_ = load_orders(o_.orders, *model_, order_findings);
     print(diagnostics, o_.world);

@@ -121,6 +121,7 @@ class Run {
     Done seek(const RewindRun& to);
     Done act(const CopyRobots& copy);
     Done act(const RestoreRobots& restore);
+    void tell_start(const ModelEdit& edit, Diagnostics found);
     /// `arrived`: the states of the last robots of the new Model, instead of their initial ones.
     Done change_model(const ModelEdit& edit, const std::string& what,
                       std::span<const RobotState> arrived = {});
@@ -210,6 +211,8 @@ class Run {
         false;  // Simulator processes of this run failed: no process is left that has the states
 };
 
+/// Whether a run prints the finding: all but notes, and notes about where robots start ("start-moved" ...).
+bool is_told_by_run(const Diagnostic& diagnostic);
 void print(const Error& error);
 
 }  // namespace roboss

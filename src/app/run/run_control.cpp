@@ -14,6 +14,7 @@
 #include "app/worlds/orders_file.h"
 #include "model/accuracy.h"
 #include "model/edit.h"
+#include "physics/start_overlaps.h"
 #include "sdf/load_world.h"
 
 namespace roboss {
@@ -299,6 +300,15 @@ Run::Done Run::act(const ChangeAccuracy& change) {
     return change_model(edit.value(), text);
 }
 
+/// Notices about robots that came: warnings, and what is noted about their start.
+void Run::tell_start(const ModelEdit& edit, Diagnostics found) {
+    for (const Diagnostic& d : edit.found.items()) found.add(d);
+    report_overlaps(*edit.model, carry_over(edit, simulation_->saved_run().states), model_->robots.size(),
+                    found);
+    for (const Diagnostic& d : found.items())
+        if (is_told_by_run(d)) notices_.push_back(to_text(d));
+}
+
 Run::Done Run::act(const AddModels& add) {
     const std::optional<PrivateFolder> folder = PrivateFolder::make("add");
     if (!folder)
@@ -314,12 +324,12 @@ Run::Done Run::act(const AddModels& add) {
     options.dt_s = model_->dt_s;
     const auto addition = world && !found.has_errors() ? compile(*world, options, found) : nullptr;
     if (!addition) return Error{first_error(found), "fix the file", "bad-model"};
-    for (const Diagnostic& d : found.items())
-        if (d.severity == Severity::kWarning) notices_.push_back(to_text(d));
     std::vector<CopyPlace> places = add.copies;
     if (places.empty()) places.push_back({add.name, add.X_WA});
-    Result<ModelEdit> edit = with_models(*model_, *addition, places);
+    Result<ModelEdit> edit =
+        with_models(*model_, *addition, places, add.on_ground ? Standing::kOnGround : Standing::kAsPlaced);
     if (!edit) return edit.error();
+    tell_start(edit.value(), found);
     if (keeps_looks(*edit.value().model))
         visuals_.add({*model_, *edit.value().model, *addition}, std::move(*world), places);
     return change_model(edit.value(),

@@ -25,7 +25,7 @@ const char* const kRunOptionsFooter = R"(Examples:
   roboss run world.sdf --from run.journal@12.5 --journal run.journal    starts a new branch at 12.5 s
 
   roboss run arm.urdf --fixed-base arm --duration 5
-  roboss run rover.urdf --ground --speed 1
+  roboss run rover.urdf --ground --on-ground --speed 1
 
   roboss run world.sdf --profile precise --accuracy high --tolerance 1e-13
 
@@ -226,6 +226,9 @@ void add_common_options(CLI::App& command, RunOptions& o) {
                      "add a ground plane at z = 0 (for a file with a robot alone, such as a URDF)");
     command.add_option("--fixed-base", o.bare.fixed_base,
                        "fix the base of this model to the world where it stands (may be repeated)");
+    command.add_flag("--on-ground", o.on_ground,
+                     "stand the robots on the ground, box or mesh below them, with their lowest collision "
+                     "shape (for a robot whose file starts it in the ground, or above)");
     command.add_option("--dt", o.dt_s, "time step, s (default: the world's max_step_size)")
         ->check(positive_number());
     command.add_option(

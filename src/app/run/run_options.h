@@ -23,9 +23,10 @@ struct RunOptions {
     std::vector<std::string> paths;  // --path: where model:// and package:// URIs are looked up
     std::optional<double> duration_s;
     std::optional<double> dt_s;
-    std::string profile;    // of <physics>
-    bool strict = false;    // a model with errors refuses the world; else it is left out
-    BareModelOptions bare;  // what is added to the world
+    std::string profile;     // of <physics>
+    bool strict = false;     // a model with errors refuses the world; else it is left out
+    BareModelOptions bare;   // what is added to the world
+    bool on_ground = false;  // robots are stood on the scenery below them
     bool no_sleep = false;
     std::optional<Precision> precision;
     AccuracySpec accuracy;        // --accuracy and each number by itself

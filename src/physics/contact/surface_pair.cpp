@@ -15,10 +15,6 @@ bool has_direction(const Material& m) {
 
 }  // namespace
 
-bool may_collide(const Material& a, const Material& b) {
-    return ((a.category_bitmask & b.collide_bitmask) | (b.category_bitmask & a.collide_bitmask)) != 0;
-}
-
 FrictionEllipse friction_of(const Material& a, const Mat3& R_WA, const Material& b, const Mat3& R_WB,
                             const Vec3& normal) {
     const bool in_a = has_direction(a), in_b = has_direction(b);

@@ -11,6 +11,7 @@
 // - Penetration left alone: the larger. Speed of correction, points of contact: the smaller.
 #pragma once
 
+#include "model/may_collide.h"
 #include "model/model.h"
 
 namespace roboss {
@@ -43,7 +44,6 @@ struct SurfacePair {
     bool moves() const { return velocity != Vec3{} || turning != Vec3{}; }
 };
 
-bool may_collide(const Material& a, const Material& b);
 FrictionEllipse friction_of(const Material& a, const Mat3& R_WA, const Material& b, const Mat3& R_WB,
                             const Vec3& normal);
 Softness softness_of(const Material& a, const Material& b);
