@@ -75,7 +75,7 @@ def test_robots_of_one_type_share_joints_under_any_names():
 
 def test_sets_of_different_types_have_what_all_members_have():
     mixed = _robots(_rover("a", sensors=_laser() + _laser("rear")), _rover("b", mass=7, sensors=_laser()))
-    assert mixed.joints == ("left_joint", "right_joint") and mixed.sensors == ("laser",)
+    assert mixed.joints == ("left_joint", "right_joint") and mixed.sensors == ("laser", "odometry")
     assert mixed["laser"].read().shape == (2, 8)
     mixed.command("cmd_vel", linear_x=[0.1, 0.3])
     mixed.simulation.step(2000)
