@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Sets up, builds and runs the benchmarks: ./bench.sh [NAME] [flags]; without a name it lists them.
-# A name is a program of its own (peers, accuracy, table1, viewer, learning, cameras_beside_mujoco), or a Google Benchmark of roboss-bench; flags go on to it.
+# A name is a program of its own (peers, accuracy, table1, viewer, learning, cameras_beside_mujoco, smallest), or a Google Benchmark of roboss-bench; flags go on to it.
 # Rows carry commit, compiler, CPU, world and number of robots; the same rows as JSON go to build/bench/NAME.json.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")"
@@ -102,6 +102,7 @@ google_benchmark() {
         printf 'table1  (one world on 1 to 12 Simulators, the paper'"'"'s experiment: about 20 minutes; --help)\n'
         printf 'viewer  (what browsers cost a run of 2000 cars: a minute; --help)\n'
         printf 'learning  (agents in Python, beside MuJoCo: a quarter of an hour; --only 64: one; --help)\n'
+        printf 'smallest  (all of them at their smallest sizes, only to see them end: some minutes)\n'
         printf 'cameras_beside_mujoco  (images beside its renderer with software OpenGL: some minutes; --help)\n'
         exec "$program" --benchmark_list_tests
     fi
@@ -114,7 +115,17 @@ google_benchmark() {
     printf 'rows as JSON: %s\n' "$rows"
 }
 
+# All benchmarks at their smallest sizes, with all engines that are installed: do they come to their ends?
+smallest() {
+    tools/setup.sh build bench peers
+    tools/fetch_mujoco.sh
+    tools/fetch_peers.sh
+    tools/build.sh release -DROBOSS_BENCHMARKS=ON roboss-peers roboss-accuracy roboss-table1 roboss-viewer-cost roboss-bench \
+        roboss_city_driver
+    bench/smallest.py build/release/bin "$@"
+}
+
 case ${1:-} in
-    peers | accuracy | table1 | viewer | learning | cameras_beside_mujoco) "$@" ;;
+    smallest | peers | accuracy | table1 | viewer | learning | cameras_beside_mujoco) "$@" ;;
     *) google_benchmark "$@" ;;
 esac

@@ -242,6 +242,12 @@ PrincipalAxes principal_axes(Mat3 m) {
     return {V, {m(0, 0), m(1, 1), m(2, 2)}};
 }
 
+bool is_common(JointSpecKind kind) {
+    return kind == JointSpecKind::kFixed || kind == JointSpecKind::kRevolute ||
+           kind == JointSpecKind::kContinuous || kind == JointSpecKind::kPrismatic ||
+           kind == JointSpecKind::kBall;
+}
+
 bool has_chains(const World& world) {
     for (const ModelSpec& model : world.prototypes) {
         const Assembly assembly = assemble(model);

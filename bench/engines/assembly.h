@@ -72,6 +72,10 @@ struct PrincipalAxes {
 };
 PrincipalAxes principal_axes(Mat3 m);
 
+/// Whether it is fixed, turns or slides about one axis, or is a ball joint: the kinds that every peer has. An
+/// adapter that knows no others asks this, so that it refuses kinds that are new to it.
+bool is_common(JointSpecKind kind);
+
 /// Whether some model of the world hangs joints on joints: iterative solvers of single joints need more
 /// rounds.
 bool has_chains(const World& world);

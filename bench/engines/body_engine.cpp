@@ -14,10 +14,8 @@ bool slides(const JointSpec& joint) {
 }
 
 bool can_joint(const JointSpec& joint) {
-    const bool hard = joint.kind == JointSpecKind::kScrew || joint.kind == JointSpecKind::kGearbox ||
-                      joint.kind == JointSpecKind::kUniversal || joint.kind == JointSpecKind::kRevolute2;
-    return !hard && std::all_of(joint.axes.begin(), joint.axes.end(),
-                                [](const AxisSpec& axis) { return axis.armature == 0; });
+    return is_common(joint.kind) && std::all_of(joint.axes.begin(), joint.axes.end(),
+                                                [](const AxisSpec& axis) { return axis.armature == 0; });
 }
 
 }  // namespace

@@ -68,10 +68,8 @@ class DartEngine final : public Engine {
             for (const PartJoint& joint : assemble(model).joints) {
                 const bool rotor = std::any_of(joint.spec->axes.begin(), joint.spec->axes.end(),
                                                [](const AxisSpec& a) { return a.armature > 0; });
-                const bool hard = joint.spec->kind == JointSpecKind::kScrew ||
-                                  joint.spec->kind == JointSpecKind::kUniversal ||
-                                  joint.spec->kind == JointSpecKind::kRevolute2;
-                if (joint.closes_loop || joint.reversed || hard || rotor) return false;
+                if (joint.closes_loop || joint.reversed || !is_common(joint.spec->kind) || rotor)
+                    return false;
             }
             for (const LinkSpec& link : model.links)
                 for (const CollisionSpec& c : link.collisions)

@@ -4,13 +4,16 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <initializer_list>
+#include <map>
 #include <numbers>
 #include <span>
+#include <vector>
 
 namespace roboss::bench {
 namespace {
 
-std::string attribute(const char* name, std::initializer_list<double> values) {
+std::string attribute(const char* name, std::span<const double> values) {
     std::string text = std::string(" ") + name + "=\"";
     char buffer[40];
     for (double x : values) {
@@ -19,6 +22,9 @@ std::string attribute(const char* name, std::initializer_list<double> values) {
     }
     text.back() = '"';
     return text;
+}
+std::string attribute(const char* name, std::initializer_list<double> values) {
+    return attribute(name, std::span(values.begin(), values.size()));
 }
 
 std::string pose(const Pose& X) {
@@ -38,8 +44,9 @@ class Writer {
             instance_body(instance);
         }
         if (!expressible_) return std::nullopt;
-        places_.xml = head() + "<worldbody>\n" + bodies_ + "</worldbody>\n<contact>\n" + excludes_ +
-                      "</contact>\n<equality>\n" + equalities_ + "</equality>\n</mujoco>\n";
+        places_.xml = head() + "<asset>\n" + assets_ + "</asset>\n<worldbody>\n" + bodies_ +
+                      "</worldbody>\n<contact>\n" + excludes_ + "</contact>\n<equality>\n" + equalities_ +
+                      "</equality>\n</mujoco>\n";
         return std::move(places_);
     }
 
@@ -117,7 +124,7 @@ class Writer {
             bodies_ += "<joint type=\"ball\"" + pos + "/>\n";
             return;
         }
-        expressible_ &= spec.kind != JointSpecKind::kScrew;
+        expressible_ &= spec.kind != JointSpecKind::kScrew && spec.kind != JointSpecKind::kPlanar;
         for (std::size_t a = 0; a < spec.axes.size(); ++a) {
             const std::size_t pick = joint.reversed ? spec.axes.size() - 1 - a : a;
             place_->joints[joint.index][pick] = next_joint_++;
@@ -163,10 +170,25 @@ class Writer {
             case GeometryKind::kEllipsoid:
                 bodies_ += " type=\"ellipsoid\"" + attribute("size", {g.size.x, g.size.y, g.size.z});
                 break;
+            case GeometryKind::kMesh:
+                mesh(g);
+                break;
             default:
                 expressible_ = false;
         }
         bodies_ += "/>\n";
+    }
+
+    /// The hull of a mesh: all that MuJoCo makes of one. Of triangles that never move RoBOSS keeps each.
+    void mesh(const GeometrySpec& g) {
+        expressible_ &= g.mesh != nullptr && (g.as_hull || !model_->is_static);
+        if (!expressible_) return;
+        const auto [entry, is_new] = meshes_.try_emplace(g.mesh.get(), "m" + std::to_string(meshes_.size()));
+        bodies_ += " type=\"mesh\" mesh=\"" + entry->second + "\"";
+        if (!is_new) return;
+        std::vector<double> corners;
+        for (const Vec3& v : g.mesh->vertices) corners.insert(corners.end(), {v.x, v.y, v.z});
+        assets_ += "<mesh name=\"" + entry->second + "\"" + attribute("vertex", corners) + "/>\n";
     }
 
     std::string surface(const SurfaceSpec& s) const {
@@ -220,7 +242,8 @@ class Writer {
     const ModelSpec* model_ = nullptr;
     MjcfPlaces::Instance* place_ = nullptr;
     MjcfPlaces places_;
-    std::string bodies_, excludes_, equalities_;
+    std::map<const MeshSpec*, std::string> meshes_;  // names
+    std::string assets_, bodies_, excludes_, equalities_;
     int next_body_ = 1, next_joint_ = 0;
     bool expressible_ = true;
 };

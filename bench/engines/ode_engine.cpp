@@ -75,12 +75,9 @@ class OdeEngine final : public Engine {
     static bool can(const World& world) {
         for (const ModelSpec& model : world.prototypes) {
             for (const JointSpec& joint : model.joints) {
-                const bool hard =
-                    joint.kind == JointSpecKind::kScrew || joint.kind == JointSpecKind::kGearbox ||
-                    joint.kind == JointSpecKind::kUniversal || joint.kind == JointSpecKind::kRevolute2;
                 const bool rotor = std::any_of(joint.axes.begin(), joint.axes.end(),
                                                [](const AxisSpec& a) { return a.armature > 0; });
-                if (hard || rotor) return false;
+                if (!is_common(joint.kind) || rotor) return false;
             }
             for (const LinkSpec& link : model.links)
                 for (const CollisionSpec& c : link.collisions)

@@ -98,6 +98,13 @@ void Bvh::query(const Aabb& box, std::vector<std::uint32_t>& out) const {
     std::sort(out.begin(), out.end());
 }
 
+bool Bvh::overlaps_any(const Aabb& box) const {
+    bool found = false;
+    visit([&](const Aabb& other) { return !found && overlaps(other, box); },
+          [&](std::uint32_t) { found = true; });
+    return found;
+}
+
 bool Bvh::meets(const Aabb& box, const Vec3& origin, const Vec3& direction, double limit) {
     // Rounding must not lose a hit on the border of a flat box.
     double enter = 0, leave = limit;

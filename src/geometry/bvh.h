@@ -21,6 +21,18 @@ class Bvh {
     /// first; no allocation once its capacity suffices).
     void query(const Aabb& box, std::vector<std::uint32_t>& out) const;
 
+    /// Calls visit(item) for the bounded items whose boxes, and those above them in the tree, meets(box)
+    /// says. In no order that means anything.
+    template <class Meets, class Visit>
+    void visit(Meets meets, Visit visit) const;
+
+    /// Likewise visit(item of a, item of b) for pairs of which meets(box of a, box of b) says so.
+    template <class Meets, class Visit>
+    static void visit_pairs(const Bvh& a, const Bvh& b, Meets meets, Visit visit);
+
+    /// Whether there are items whose boxes overlap `box`; bounded items only.
+    bool overlaps_any(const Aabb& box) const;
+
     /// The smallest distance that `distance_to(item)` gives over the items whose box the ray meets nearer
     /// than the best so far; `limit` if none is smaller. Bounded items only.
     template <class Distance>
@@ -42,6 +54,50 @@ class Bvh {
     std::vector<Aabb> item_boxes_;         // in the order of items_, then of infinite_
     std::vector<std::uint32_t> infinite_;  // items with an infinite box
 };
+
+template <class Meets, class Visit>
+void Bvh::visit(Meets meets, Visit visit) const {
+    std::array<std::uint32_t, kStackDepth> stack{};
+    std::size_t depth = 0;
+    if (!nodes_.empty()) stack[depth++] = 0;
+    while (depth > 0) {
+        const std::uint32_t number = stack[--depth];
+        const Node& node = nodes_[number];
+        if (!meets(node.box)) continue;
+        if (node.count == 0) {
+            stack[depth++] = node.first;
+            stack[depth++] = number + 1;
+            continue;
+        }
+        for (std::uint32_t i = node.first; i < node.first + node.count; ++i)
+            if (meets(item_boxes_[i])) visit(items_[i]);
+    }
+}
+
+template <class Meets, class Visit>
+void Bvh::visit_pairs(const Bvh& a, const Bvh& b, Meets meets, Visit visit) {
+    struct NodePair {
+        std::uint32_t a, b;
+    };
+    std::array<NodePair, 2 * kStackDepth> stack;  // read below `depth` only
+    std::size_t depth = 0;
+    if (!a.nodes_.empty() && !b.nodes_.empty()) stack[depth++] = {0, 0};
+    const auto size = [](const Node& node) { return norm_squared(node.box.max - node.box.min); };
+    while (depth > 0) {
+        const NodePair pair = stack[--depth];
+        const Node &node_a = a.nodes_[pair.a], &node_b = b.nodes_[pair.b];
+        if (!meets(node_a.box, node_b.box)) continue;
+        if (node_a.count == 0 && (node_b.count > 0 || size(node_a) >= size(node_b))) {
+            stack[depth++] = {node_a.first, pair.b}, stack[depth++] = {pair.a + 1, pair.b};
+        } else if (node_b.count == 0) {
+            stack[depth++] = {pair.a, node_b.first}, stack[depth++] = {pair.a, pair.b + 1};
+        } else {
+            for (std::uint32_t i = node_a.first; i < node_a.first + node_a.count; ++i)
+                for (std::uint32_t j = node_b.first; j < node_b.first + node_b.count; ++j)
+                    if (meets(a.item_boxes_[i], b.item_boxes_[j])) visit(a.items_[i], b.items_[j]);
+        }
+    }
+}
 
 template <class Distance>
 double Bvh::nearest(const Vec3& origin, const Vec3& direction, double limit, Distance distance_to) const {

@@ -39,25 +39,37 @@ HeightField::HeightField(std::size_t columns, std::size_t rows, std::span<const 
     box_.include(Vec3{-x0_, -y0_, *high});
 }
 
-void HeightField::query(const Aabb& box, std::vector<std::uint32_t>& out) const {
-    out.clear();
-    if (box.max.x < box_.min.x || box.min.x > box_.max.x || box.max.y < box_.min.y || box.min.y > box_.max.y)
-        return;
+HeightField::Cells HeightField::cells_under(const Aabb& box) const {
     const auto cell = [](double x, double origin, double step, std::size_t nodes) {
         const double at = std::floor((x - origin) / step);
         return static_cast<std::size_t>(std::clamp(at, 0.0, static_cast<double>(nodes - 2)));
     };
-    const std::size_t i0 = cell(box.min.x, x0_, dx_, columns_), i1 = cell(box.max.x, x0_, dx_, columns_);
-    const std::size_t j0 = cell(box.min.y, y0_, dy_, rows_), j1 = cell(box.max.y, y0_, dy_, rows_);
-    for (std::size_t j = j0; j <= j1; ++j) {
-        for (std::size_t i = i0; i <= i1; ++i) {
-            const double* h = &heights_[j * columns_ + i];
-            const double high = std::max({h[0], h[1], h[columns_], h[columns_ + 1]});
-            if (high < box.min.z) continue;  // what is below ground is in it
+    return {cell(box.min.x, x0_, dx_, columns_), cell(box.max.x, x0_, dx_, columns_),
+            cell(box.min.y, y0_, dy_, rows_), cell(box.max.y, y0_, dy_, rows_)};
+}
+
+void HeightField::query(const Aabb& box, std::vector<std::uint32_t>& out) const {
+    out.clear();
+    if (is_beside(box)) return;
+    const Cells cells = cells_under(box);
+    for (std::size_t j = cells.j0; j <= cells.j1; ++j) {
+        for (std::size_t i = cells.i0; i <= cells.i1; ++i) {
+            if (highest(i, j) < box.min.z) continue;  // what is below ground is in it
             const auto number = static_cast<std::uint32_t>(2 * (j * (columns_ - 1) + i));
             out.push_back(number), out.push_back(number + 1);
         }
     }
+}
+
+bool HeightField::may_overlap(const Aabb& box) const {
+    constexpr std::size_t kMost = 64;  // cells that are worth a look
+    if (is_beside(box) || box.min.z > box_.max.z) return false;
+    const Cells cells = cells_under(box);
+    if ((cells.i1 - cells.i0 + 1) * (cells.j1 - cells.j0 + 1) > kMost) return true;
+    for (std::size_t j = cells.j0; j <= cells.j1; ++j)
+        for (std::size_t i = cells.i0; i <= cells.i1; ++i)
+            if (highest(i, j) >= box.min.z) return true;
+    return false;
 }
 
 std::array<HeightField::Node, 3> HeightField::nodes(std::uint32_t number) const {

@@ -2,6 +2,7 @@
 // are asked for. Solid below.
 #pragma once
 
+#include <algorithm>
 #include <span>
 
 #include "geometry/triangle_surface.h"
@@ -17,6 +18,7 @@ class HeightField final : public TriangleSurface {
 
     std::size_t triangle_count() const override { return 2 * (columns_ - 1) * (rows_ - 1); }
     void query(const Aabb& box, std::vector<std::uint32_t>& out) const override;
+    bool may_overlap(const Aabb& box) const override;
     SurfaceTriangle triangle(std::uint32_t number) const override;
     bool tops(std::uint32_t number, std::size_t corner, const Vec3& d, double tolerance) const override;
     double ray(const Vec3& origin, const Vec3& direction, double limit) const override;
@@ -26,6 +28,18 @@ class HeightField final : public TriangleSurface {
     }
 
   private:
+    struct Cells {
+        std::size_t i0 = 0, i1 = 0, j0 = 0, j1 = 0;  // both ends included
+    };
+    Cells cells_under(const Aabb& box) const;
+    bool is_beside(const Aabb& box) const {
+        return box.max.x < box_.min.x || box.min.x > box_.max.x || box.max.y < box_.min.y ||
+               box.min.y > box_.max.y;
+    }
+    double highest(std::size_t i, std::size_t j) const {
+        const double* h = &heights_[j * columns_ + i];
+        return std::max({h[0], h[1], h[columns_], h[columns_ + 1]});
+    }
     struct Node {
         std::size_t i = 0, j = 0;
     };

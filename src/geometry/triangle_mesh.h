@@ -18,6 +18,7 @@ class TriangleMesh final : public TriangleSurface {
 
     std::size_t triangle_count() const override { return triangles_.size(); }
     void query(const Aabb& box, std::vector<std::uint32_t>& out) const override { bvh_.query(box, out); }
+    bool may_overlap(const Aabb& box) const override { return bvh_.overlaps_any(box); }
     SurfaceTriangle triangle(std::uint32_t number) const override;
     bool tops(std::uint32_t number, std::size_t corner, const Vec3& d, double tolerance) const override;
     double ray(const Vec3& origin, const Vec3& direction, double limit) const override;

@@ -54,6 +54,8 @@ class TriangleSurface {
     virtual std::size_t triangle_count() const = 0;
     /// Numbers of the triangles whose boxes overlap `box`, ascending; clears `out` first.
     virtual void query(const Aabb& box, std::vector<std::uint32_t>& out) const = 0;
+    /// False only if query() would find none.
+    virtual bool may_overlap(const Aabb& box) const = 0;
     virtual SurfaceTriangle triangle(std::uint32_t number) const = 0;
     /// Whether no neighbour of a triangle's corner rises along the unit vector d by more than the sine
     /// `tolerance`.

@@ -26,7 +26,7 @@
 #include "model/dof_paths.h"
 #include "model/joint_elimination.h"
 #include "model/reach_sphere.h"
-#include "model/self_blocks.h"
+#include "model/shape_groups.h"
 #include "world/world.h"
 
 namespace roboss {
@@ -267,7 +267,7 @@ struct RobotType {
     bool has_slip = false;    ///< it has wheels that slip (WheelSlip); computed by seal()
     int wind_index = -1;      ///< in RobotState::onboard, of the wind that it feels; -1: Model::wind
     std::vector<std::pair<int, int>> self_pairs;  ///< shapes of this robot that may collide with each other
-    SelfBlocks self_blocks;                       ///< the same by bodies; computed by seal()
+    ShapeGroups shape_groups;                     ///< shapes by bodies; computed by seal()
     std::vector<SensorInfo> sensors;              ///< by the index that find_sensor() gives
     std::vector<OnboardInfo> onboard;             ///< on-board controllers, in the order in which they run
     std::vector<ChannelInfo> channels;            ///< commands that its on-board controllers take

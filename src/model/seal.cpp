@@ -91,7 +91,7 @@ void seal(Model& model) {
         type.radios.clear();
         for (std::uint32_t i = 0; i < type.sensors.size(); ++i)
             if (type.sensors[i].spec.as<RadioSpec>() != nullptr) type.radios.push_back(i);
-        type.self_blocks = SelfBlocks(type.shapes, type.self_pairs);
+        type.shape_groups = ShapeGroups(type);
         type.elimination = joint_elimination(type);
         type.reach_sphere = reach_sphere_of(type);
         type.hash = type_hash(type);

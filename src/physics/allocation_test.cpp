@@ -4,6 +4,7 @@
 
 #include <support/bonds.h>
 #include <support/count_allocations.h>
+#include <support/crowds.h>
 #include <support/drives.h>
 #include <support/joint_net.h>
 #include <support/mechanisms.h>
@@ -48,6 +49,17 @@ TEST(Allocation, CarsOnAPlaneAllocateNothing) {
     for (std::size_t r = 0; r < sim.states.size(); ++r)
         for (std::size_t d = 0; d < 4; ++d) sim.set_motor(r, d, MotorMode::kVelocity, d % 2 == 0 ? 4 : 10);
     EXPECT_EQ(allocations_of(sim, 500), 0u);
+}
+
+TEST(Allocation, RobotsOfVeryManyHullsAllocateNothing) {
+    World world = empty_world(2e-3);
+    place(world, ground(surface(0.9)), "ground");
+    ModelSpec model = with_hulls(spider(), 20, 0.1);
+    model.self_collide = true;
+    place(world, model, "a", {{0, 0, 0.3}, {}});
+    world.instances.push_back({"b", 1, {{0.3, 0, 0.6}, {}}, {}});
+    Simulation sim(world);
+    EXPECT_EQ(allocations_of(sim, 300), 0u);
 }
 
 TEST(Allocation, CarsWithAnOnboardDriveAllocateNothing) {

@@ -59,8 +59,11 @@ bool is_finite(const RobotState& state) {
 
 std::optional<int> body_beyond_numbers(const RobotWork& work) {
     if (!is_finite(work.origin)) return -1;
-    for (std::size_t i = 0; i < work.shapes.size(); ++i)
-        if (!std::isfinite(work.shapes[i].margin)) return work.type->shapes[i].body;
+    const ShapeGroups& groups = work.type->shape_groups;
+    for (const std::uint32_t s : groups.loose)
+        if (!std::isfinite(work.shapes[s].margin)) return work.type->shapes[s].body;
+    for (std::size_t k = 0; k < work.crowds.size(); ++k)
+        if (!std::isfinite(work.crowds[k].margin)) return groups.crowds[k].body;
     return std::nullopt;
 }
 

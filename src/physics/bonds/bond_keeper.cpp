@@ -61,7 +61,8 @@ void take_hold(std::span<const RobotWork> robots, std::uint32_t holder, std::uin
 /// The box of the robot's own shapes.
 Aabb own_box(const RobotWork& work) {
     Aabb box;
-    for (const ShapeWork& shape : work.shapes) box.include(shape.box);
+    for (const std::uint32_t s : work.type->shape_groups.loose) box.include(work.shapes[s].box);
+    for (const auto& crowd : work.crowds) box.include(crowd.box);
     if (work.shapes.empty()) box.include(work.origin);
     return box;
 }
@@ -156,11 +157,10 @@ void BondKeeper::form_at_cup(const Model& model, std::span<RobotWork> robots, st
         if (j == holder || !overlaps(ball, work.box) || model.robots[work.id.index()].family == family)
             continue;
         place_sleeper(model, work);
-        for (std::size_t s = 0; s < work.shapes.size(); ++s) {
+        for (const std::uint32_t s : search_.in_box(work, ball)) {
             const BodyShape& shape = work.type->shapes[s];
-            if (!overlaps(ball, work.shapes[s].box)) continue;
             const double gap = least_gap(
-                collide(tip, {Mat3::identity(), cup}, shape.shape, work.shapes[s].X_WS, bond.reach));
+                collide(tip, {Mat3::identity(), cup}, shape.shape, shape_pose(work, s), bond.reach));
             if (!(gap < nearest)) continue;
             nearest = gap, other = j, bond.other_link = shape.link;
         }

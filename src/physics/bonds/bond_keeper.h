@@ -8,6 +8,7 @@
 
 #include "geometry/collide_surface.h"
 #include "physics/bonds/bond_cover.h"
+#include "physics/contact/shape_search.h"
 #include "physics/sleep.h"
 
 namespace roboss {
@@ -56,6 +57,7 @@ class BondKeeper {
     std::vector<HeldBond> held_;
     std::vector<std::uint32_t> woken_;
     std::vector<std::uint32_t> scenery_;
+    ShapeSearch search_;
     SurfaceContacts surface_;
 };
 

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <support/crowds.h>
 #include <support/mechanisms.h>
 #include <support/robots.h>
 #include <support/scenes.h>
@@ -28,7 +29,8 @@ TEST(CoarseBound, HoldsTheExactBoundOfEveryPoseAndMotion) {
         for (double& x : row) x = random.uniform(-size, size);
     };
     int tighter = 0;
-    for (const ModelSpec& spec : {arm(), arm_beside_its_base(), spider(), mixed_tree()}) {
+    for (const ModelSpec& spec : {arm(), arm_beside_its_base(), spider(), mixed_tree(),
+                                  with_hulls(mixed_tree(), 20, 0.2), with_hulls(arm(), 20, 0.2)}) {
         World world = empty_world(1e-3);
         place(world, with_balls(spec, 0.1), spec.name, {{0.4, -0.3, 0.2}, from_rpy(0.3, -0.2, 0.8)});
         Simulation sim(world);

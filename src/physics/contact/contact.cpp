@@ -4,7 +4,6 @@
 #include "physics/contact/contact.h"
 
 #include <algorithm>
-#include <limits>
 #include <tuple>
 
 #include "core/make_room.h"
@@ -27,8 +26,6 @@ struct ContactFinder::Pair {
 namespace {
 
 constexpr std::uint32_t kStatic = RobotId::kNone;
-constexpr double kFar = std::numeric_limits<double>::infinity();
-constexpr Aabb kEverywhere{{-kFar, -kFar, -kFar}, {kFar, kFar, kFar}};
 
 /// Drops all but the `keep` deepest points; of equal depth the first.
 std::uint32_t points_to_keep(const Manifold& manifold, std::uint32_t keep) {
@@ -96,9 +93,9 @@ void sort_contacts(std::span<const RobotWork> robots, std::span<Contact> contact
 }
 
 /// Axes in which the friction direction of a robot's shape is.
-const Mat3& friction_axes(const RobotWork& robot, std::uint32_t shape) {
+Mat3 friction_axes(const RobotWork& robot, std::uint32_t shape) {
     const int body = robot.type->shapes[shape].direction_body;
-    return body < 0 ? robot.shapes[shape].X_WS.R : robot.bodies[static_cast<std::size_t>(body)].X_WB.R;
+    return body < 0 ? shape_pose(robot, shape).R : robot.bodies[static_cast<std::size_t>(body)].X_WB.R;
 }
 
 /// Of the robot or one behind it.
@@ -128,7 +125,7 @@ ContactFinder& ContactFinder::operator=(ContactFinder&&) noexcept = default;
 SurfacePair surface_of(const Model& model, std::span<const RobotWork> robots, const Contact& contact) {
     const RobotWork& a = robots[static_cast<std::size_t>(contact.robot_a)];
     const Material& of_a = a.type->shapes[contact.shape_a].material;
-    const Mat3& R_WA = friction_axes(a, contact.shape_a);
+    const Mat3 R_WA = friction_axes(a, contact.shape_a);
     SurfacePair pair;
     if (contact.robot_b < 0) {
         const StaticShape& scenery = model.statics[contact.shape_b];
@@ -216,35 +213,24 @@ void ContactFinder::find(const Model& model, std::span<RobotWork> robots, const 
 
 void ContactFinder::with_statics(const Model& model, std::span<RobotWork> robots, std::size_t a,
                                  std::vector<Contact>& contacts) {
-    RobotWork& work = robots[a];
+    const RobotWork& work = robots[a];
     if (work.shapes.empty()) return;
-    model.static_bvh.query(work.box, candidates_);
-    candidate_boxes_.clear();
-    for (std::uint32_t i : candidates_) {
-        const StaticShape& scenery = model.statics[i];
-        candidate_boxes_.push_back(
-            scenery.shape.kind == ShapeKind::kPlane ? kEverywhere : bounds(scenery.shape, scenery.X_WS));
-    }
-    for (std::size_t s = 0; s < work.shapes.size(); ++s) {
-        const int body = work.type->shapes[s].body;
-        if (body < 0 ||
-            (bonds_ != nullptr && work.bonded && bonds_->joins(static_cast<int>(a), body, -1, -1)))
-            continue;
-        for (std::size_t k = 0; k < candidates_.size(); ++k)
-            if (overlaps(work.shapes[s].box, candidate_boxes_[k]))
-                with_static(model, robots, a, s, candidates_[k], contacts);
-    }
+    own_.start(work, model.dt_s);
+    const bool may_be_bonded = bonds_ != nullptr && work.bonded;
+    for (const auto& [s, i] : search_.with_scenery(model, work))
+        if (!may_be_bonded || !bonds_->joins(static_cast<int>(a), work.type->shapes[s].body, -1, -1))
+            with_static(model, robots, a, s, i, contacts);
 }
 
 void ContactFinder::with_static(const Model& model, std::span<const RobotWork> robots, std::size_t a,
                                 std::size_t s, std::size_t i, std::vector<Contact>& contacts) {
     const BodyShape& shape = robots[a].type->shapes[s];
-    const ShapeWork& placed = robots[a].shapes[s];
     const StaticShape& scenery = model.statics[i];
     if (!may_collide(shape.material, scenery.material)) return;
     const Pair pair{static_cast<int>(a), -1, s, i, shape.body, -1};
     const std::uint32_t keep = points_max(shape.material, scenery.material);
     if (scenery.shape.kind == ShapeKind::kSurface) return with_surface(model, robots, pair, keep, contacts);
+    const ShapeWork& placed = own_[s];
     Manifold manifold = collide_near(shape.shape, placed.X_WS, scenery.shape, scenery.X_WS, placed.margin);
     if (scenery.shape.kind != ShapeKind::kPlane && may_pass(manifold, placed.margin - kBaseMargin))
         return add_judged(pair, course(model, robots, pair.robot_a, s),
@@ -264,7 +250,7 @@ void ContactFinder::with_surface(const Model& model, std::span<const RobotWork> 
     const RobotWork& robot = robots[static_cast<std::size_t>(pair.robot_a)];
     const StaticShape& scenery = model.statics[pair.shape_b];
     const TriangleSurface& surface = *scenery.shape.surface;
-    const ShapeWork& placed = robot.shapes[pair.shape_a];
+    const ShapeWork& placed = own_[pair.shape_a];
     const double margin = placed.margin, displacement = margin - kBaseMargin;
     SweepBuffers& b = *buffers_;
     collide_surface(robot.type->shapes[pair.shape_a].shape, placed.X_WS, surface, scenery.X_WS, margin,
@@ -330,11 +316,11 @@ void ContactFinder::defer_later(const Model& model, std::span<const RobotWork> r
 }
 
 void ContactFinder::collide_shapes(const Model& model, std::span<const RobotWork> robots, Pair pair,
-                                   bool sweeps, std::vector<Contact>& contacts) {
+                                   PlacedShapes& shapes_b, bool sweeps, std::vector<Contact>& contacts) {
     const RobotWork& ra = robots[static_cast<std::size_t>(pair.robot_a)];
     const RobotWork& rb = robots[static_cast<std::size_t>(pair.robot_b)];
     const BodyShape &a = ra.type->shapes[pair.shape_a], &b = rb.type->shapes[pair.shape_b];
-    const ShapeWork &wa = ra.shapes[pair.shape_a], &wb = rb.shapes[pair.shape_b];
+    const ShapeWork &wa = own_[pair.shape_a], &wb = shapes_b[pair.shape_b];
     if (!overlaps(wa.box, wb.box) || !may_collide(a.material, b.material)) return;
     pair.body_a = a.body, pair.body_b = b.body;
     const double margin = wa.margin + wb.margin;
@@ -348,36 +334,12 @@ void ContactFinder::collide_shapes(const Model& model, std::span<const RobotWork
     add_points(manifold, pair, keep, contacts);
 }
 
-/// Bodies first, then the pairs of shapes whose boxes overlap, in the order of RobotType::self_pairs.
 void ContactFinder::with_itself(const Model& model, std::span<const RobotWork> robots, std::size_t a,
                                 std::vector<Contact>& contacts) {
-    const RobotType& type = *robots[a].type;
-    const std::vector<ShapeWork>& shapes = robots[a].shapes;
-    boxes_.assign(type.bodies.size() + 1, {});
-    for (std::size_t s = 0; s < shapes.size(); ++s)
-        boxes_[static_cast<std::size_t>(type.shapes[s].body + 1)].include(shapes[s].box);
-    candidates_.clear();
-    for (const SelfBlocks::Block& block : type.self_blocks.blocks) {
-        const Aabb& other = boxes_[static_cast<std::size_t>(block.body_b + 1)];
-        if (!overlaps(boxes_[static_cast<std::size_t>(block.body_a + 1)], other)) continue;
-        std::size_t last = shapes.size();
-        bool is_near = false;
-        for (const std::uint32_t i : std::span(type.self_blocks.pairs).subspan(block.first, block.count)) {
-            const auto s = static_cast<std::size_t>(type.self_pairs[i].first);
-            if (s != last) is_near = overlaps(shapes[s].box, other), last = s;
-            if (is_near &&
-                overlaps(shapes[s].box, shapes[static_cast<std::size_t>(type.self_pairs[i].second)].box))
-                candidates_.push_back(i);
-        }
-    }
-    std::ranges::sort(candidates_);
     const auto robot = static_cast<int>(a);
-    for (const std::uint32_t i : candidates_) {
-        const auto [s, t] = type.self_pairs[i];
-        collide_shapes(model, robots,
-                       {robot, robot, static_cast<std::size_t>(s), static_cast<std::size_t>(t)}, true,
-                       contacts);
-    }
+    own_.start(robots[a], model.dt_s);
+    for (const auto& [s, t] : search_.within(robots[a]))
+        collide_shapes(model, robots, {robot, robot, s, t}, own_, true, contacts);
 }
 
 void ContactFinder::with_robot(const Model& model, std::span<const RobotWork> robots, std::size_t a,
@@ -392,19 +354,14 @@ void ContactFinder::meet_robot(const Model& model, std::span<const RobotWork> ro
     if (model.robots[wa.id.index()].family == model.robots[wb.id.index()].family && !wa.type->self_collide)
         return;
     const bool may_be_bonded = bonds_ != nullptr && wa.bonded && wb.bonded;
-    candidates_.clear();
-    for (std::uint32_t t = 0; t < wb.shapes.size(); ++t)
-        if (overlaps(wb.shapes[t].box, wa.box)) candidates_.push_back(t);
-    for (std::size_t s = 0; s < wa.shapes.size(); ++s) {
-        if (!overlaps(wa.shapes[s].box, wb.box)) continue;
-        const int body_a = wa.type->shapes[s].body;
-        for (const std::uint32_t t : candidates_) {
-            const int body_b = wb.type->shapes[t].body;
-            if (body_a < 0 && body_b < 0) continue;  // neither can move
-            if (may_be_bonded && bonds_->joins(static_cast<int>(a), body_a, static_cast<int>(b), body_b))
-                continue;
-            collide_shapes(model, robots, {static_cast<int>(a), static_cast<int>(b), s, t}, sweeps, contacts);
-        }
+    own_.start(wa, model.dt_s), other_.start(wb, model.dt_s);
+    for (const auto& [s, t] : search_.between(wa, wb)) {
+        const int body_a = wa.type->shapes[s].body, body_b = wb.type->shapes[t].body;
+        if (body_a < 0 && body_b < 0) continue;  // neither can move
+        if (may_be_bonded && bonds_->joins(static_cast<int>(a), body_a, static_cast<int>(b), body_b))
+            continue;
+        collide_shapes(model, robots, {static_cast<int>(a), static_cast<int>(b), s, t}, other_, sweeps,
+                       contacts);
     }
 }
 

@@ -10,6 +10,7 @@
 
 #include "core/team.h"
 #include "physics/contact/box_strips.h"
+#include "physics/contact/shape_search.h"
 #include "physics/contact/surface_pair.h"
 #include "physics/dynamics/robot_work.h"
 
@@ -116,8 +117,9 @@ class ContactFinder {
     Course course(const Model& model, std::span<const RobotWork> robots, int robot, std::size_t shape);
     void meet_robot(const Model& model, std::span<const RobotWork> robots, std::size_t a, std::size_t b,
                     bool sweeps, std::vector<Contact>& contacts);
-    void collide_shapes(const Model& model, std::span<const RobotWork> robots, Pair pair, bool sweeps,
-                        std::vector<Contact>& contacts);
+    /// `shapes_b`: of the second robot; those of the first are own_.
+    void collide_shapes(const Model& model, std::span<const RobotWork> robots, Pair pair,
+                        PlacedShapes& shapes_b, bool sweeps, std::vector<Contact>& contacts);
     void add_judged(const Pair& pair, const Course& a, const Course& b, double dt, double margin,
                     std::uint32_t keep, Manifold& manifold, std::vector<Contact>& contacts);
     void with_surface(const Model& model, std::span<const RobotWork> robots, const Pair& pair,
@@ -136,12 +138,12 @@ class ContactFinder {
     std::unique_ptr<SweepBuffers> buffers_;
     std::unique_ptr<FreeCourses> free_courses_;
     std::vector<NearMiss> near_misses_;
-    std::vector<double> first_hits_;         // by robot, s
-    std::vector<std::uint32_t> candidates_;  // what is near a robot: scenery, shapes, pairs of its own
-    std::vector<Aabb> candidate_boxes_;      // of the scenery
+    std::vector<double> first_hits_;  // by robot, s
+    ShapeSearch search_;
+    PlacedShapes own_, other_;  // of the robot that is looked at, and of the one that it meets
     std::vector<std::uint32_t> awake_;
     std::vector<RobotPair> pairs_;  // sorted
-    std::vector<Aabb> boxes_;       // of the robots, or of one robot's bodies
+    std::vector<Aabb> boxes_;       // of the robots
     BoxStrips strips_;
     std::vector<std::uint32_t> places_;  // by robot: of its pairs, as they are sorted
     std::vector<RobotPair> sorted_;

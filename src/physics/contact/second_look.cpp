@@ -92,7 +92,9 @@ const Mechanics<double>& SecondLook::moved(const SolvedIsland& island, int robot
     if (is_moved_[i]) return to;
     is_moved_[i] = 1;
     to.type = work.type, to.origin = work.origin, to.base = work.base;
-    to.bodies = work.bodies, to.axes = work.axes, to.shapes = work.shapes;
+    to.bodies = work.bodies, to.axes = work.axes, to.X_W0 = work.X_W0;
+    to.shapes.resize(work.shapes.size());
+    for (const std::uint32_t s : work.type->shape_groups.loose) to.shapes[s] = work.shapes[s];
     const auto first = static_cast<std::size_t>(island.offsets[i]);
     if (work.type->nv > 0)
         forward_velocities<double>(
@@ -189,24 +191,42 @@ bool SecondLook::add_first_hit(const SolvedIsland& island, const ShapePair& pair
 /// looked for: another robot there may be none of the group.
 void SecondLook::find_struck(const SolvedIsland& island, std::uint32_t robot) {
     const RobotWork& work = island.robots[robot];
-    const Model& model = island.model;
+    const ShapeGroups& groups = work.type->shape_groups;
     const Mechanics<double>& to = moved(island, static_cast<int>(robot));
+    shapes_.start(work, island.model.dt_s);
+    for (const std::uint32_t s : groups.loose) find_struck(island, robot, s);
+    for (const ShapeCrowd& crowd : groups.crowds)
+        if (crowd.body >= 0 && may_strike_scenery(island.model, to, crowd))
+            for (const std::uint32_t s : crowd.shapes) find_struck(island, robot, s);
+}
+
+/// Planes apart.
+bool SecondLook::may_strike_scenery(const Model& model, const Mechanics<double>& moved,
+                                    const ShapeCrowd& crowd) {
+    const BodyWork& body = moved.bodies[static_cast<std::size_t>(crowd.body)];
+    const double speed = speed_within(moved, body.velocity, body.X_WB.p, crowd.radius);
+    model.static_bvh.query(crowd_box(crowd, body.X_WB, 2 * kBaseMargin + speed * model.dt_s), scenery_);
+    return std::ranges::any_of(
+        scenery_, [&](std::uint32_t i) { return model.statics[i].shape.kind != ShapeKind::kPlane; });
+}
+
+void SecondLook::find_struck(const SolvedIsland& island, std::uint32_t robot, std::uint32_t s) {
+    const BodyShape& shape = island.robots[robot].type->shapes[s];
+    const Model& model = island.model;
+    if (shape.body < 0) return;
+    const Mechanics<double>& to = moved(island, static_cast<int>(robot));
+    const double reach = speed_of(course_of(to, s, model.dt_s)) * model.dt_s + kBaseMargin;
+    const ShapeWork& placed = shapes_[s];
+    if (reach <= placed.margin) return;
+    model.static_bvh.query(bounds(shape.shape, placed.X_WS).inflated(reach), scenery_);
     const std::span<const Contact* const> own = contacts_of(robot, island.contacts);
-    for (std::size_t s = 0; s < work.shapes.size(); ++s) {
-        const BodyShape& shape = work.type->shapes[s];
-        if (shape.body < 0) continue;
-        const double reach = speed_of(course_of(to, s, model.dt_s)) * model.dt_s + kBaseMargin;
-        if (reach <= work.shapes[s].margin) continue;
-        model.static_bvh.query(bounds(shape.shape, work.shapes[s].X_WS).inflated(reach), scenery_);
-        for (const std::uint32_t i : scenery_) {
-            const StaticShape& scenery = model.statics[i];
-            const NearMiss pair{{static_cast<int>(robot), -1, static_cast<std::uint32_t>(s), i}, {}};
-            const bool is_known =
-                std::ranges::binary_search(island.near_misses, pair) ||
-                std::ranges::any_of(own, [&](const Contact* c) { return pair == pair_of(*c); });
-            if (is_known || scenery.shape.kind == ShapeKind::kPlane) continue;
-            if (may_collide(shape.material, scenery.material)) find_missed(island, pair);
-        }
+    for (const std::uint32_t i : scenery_) {
+        const StaticShape& scenery = model.statics[i];
+        const NearMiss pair{{static_cast<int>(robot), -1, s, i}, {}};
+        const bool is_known = std::ranges::binary_search(island.near_misses, pair) ||
+                              std::ranges::any_of(own, [&](const Contact* c) { return pair == pair_of(*c); });
+        if (is_known || scenery.shape.kind == ShapeKind::kPlane) continue;
+        if (may_collide(shape.material, scenery.material)) find_missed(island, pair);
     }
 }
 
@@ -349,10 +369,10 @@ double SecondLook::first_time() const {
     return first;
 }
 
-const ShapeWork& SecondLook::placed(const RobotWork& robot, std::uint32_t shape) {
+Transform SecondLook::placed(const RobotWork& robot, std::uint32_t shape) {
     forward_kinematics<double>(*robot.type, robot.state->q, placed_);
-    place_shapes<double>(*robot.type, 0, robot.state->q, placed_);
-    return placed_.shapes[shape];
+    const BodyShape& of_body = robot.type->shapes[shape];
+    return body_frame(placed_, of_body.body) * of_body.X_BS;
 }
 
 /// True if something was moved. Of two robots that are free the lighter one gives way more.
@@ -360,7 +380,7 @@ bool SecondLook::push_out(std::span<RobotWork> robots, const Model& model, const
     const ShapePair& pair = turned.pair;
     RobotWork& a = robots[static_cast<std::size_t>(pair.robot_a)];
     const Shape& shape = a.type->shapes[pair.shape_a].shape;
-    const Transform X = placed(a, pair.shape_a).X_WS;
+    const Transform X = placed(a, pair.shape_a);
     Vec3 normal;
     double deepest = turned.least - kDeep;
     const auto see = [&](const Vec3& n, double gap) {
@@ -373,8 +393,7 @@ bool SecondLook::push_out(std::span<RobotWork> robots, const Model& model, const
         collide_surface(shape, X, *other.surface, model.statics[pair.shape_b].X_WS, 0, buffers_.there);
         for (const SurfaceContact& c : buffers_.there.points) see(c.n_W, c.gap);
     } else {
-        const Transform X_other =
-            b == nullptr ? model.statics[pair.shape_b].X_WS : placed(*b, pair.shape_b).X_WS;
+        const Transform X_other = b == nullptr ? model.statics[pair.shape_b].X_WS : placed(*b, pair.shape_b);
         const Manifold m = collide(shape, X, other, X_other, 0);
         see(m.n_W, least_gap(m));
     }

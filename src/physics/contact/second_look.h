@@ -60,11 +60,13 @@ class SecondLook {
     bool push_out(std::span<RobotWork> robots, const Model& model, const Turned& turned);
     void move_apart(const Model& model, std::span<RobotWork> robots, const ShapePair& pair,
                     const Vec3& move_a, const Vec3& move_b);
-    const ShapeWork& placed(const RobotWork& robot, std::uint32_t shape);
+    Transform placed(const RobotWork& robot, std::uint32_t shape);
     void find_missed(const SolvedIsland& island, const NearMiss& pair);
     bool add_first_hit(const SolvedIsland& island, const ShapePair& pair, const Vec3& normal, const Course& a,
                        const Course& b);
     void find_struck(const SolvedIsland& island, std::uint32_t robot);
+    void find_struck(const SolvedIsland& island, std::uint32_t robot, std::uint32_t shape);
+    bool may_strike_scenery(const Model& model, const Mechanics<double>& moved, const ShapeCrowd& crowd);
     void find_turned(const SolvedIsland& island, std::span<const Contact* const> contacts);
     double gap_at(const Course& a, const Course& b, double t);
     std::optional<double> time_of_sinking(const Course& a, const Course& b, double dt, double least);
@@ -90,7 +92,8 @@ class SecondLook {
     bool anchored_ = false;  // by what is known so far
     std::vector<Turned> turned_;
     std::vector<std::uint32_t> scenery_;
-    RobotWork placed_;  // where a robot is after the tick
+    PlacedShapes shapes_;  // of the robot that was struck
+    RobotWork placed_;     // where a robot is after the tick
     SweepBuffers buffers_;
 };
 

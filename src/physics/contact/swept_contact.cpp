@@ -55,7 +55,7 @@ double moment_across_axis(const Body& body, const BodyShape& shape) {
 /// the surface outwards and is left out where the turn is large.
 Course free_course(const Mechanics<double>& robot, std::size_t number, const Spatial& velocity, double dt) {
     const BodyShape& shape = robot.type->shapes[number];
-    const Transform& X = robot.shapes[number].X_WS;
+    const Transform X = shape_pose(robot, number);
     const BodyWork& body = robot.bodies[0];
     const Body& info = robot.type->bodies[0];
     const Mat3 &R = body.X_WB.R, &I = info.inertia_C;
@@ -116,7 +116,7 @@ Course shifted_course_of(const Mechanics<double>& robot, std::size_t number, con
 
 Course steady_course_of(const Mechanics<double>& robot, std::size_t number) {
     const BodyShape& shape = robot.type->shapes[number];
-    const Transform& X = robot.shapes[number].X_WS;
+    const Transform X = shape_pose(robot, number);
     if (shape.body < 0 && robot.type->kinematic)
         return {&shape.shape,
                 X,

@@ -24,15 +24,18 @@ void add_wrenches(const RobotType& type, const RobotState& state, double dt, Rob
 void widen_shapes(double dt, RobotWork& work) {
     const RobotType& type = *work.type;
     work.box = {};
-    for (std::size_t s = 0; s < work.shapes.size(); ++s) {
-        ShapeWork& w = work.shapes[s];
-        const double radius = bounding_radius(type.shapes[s].shape);
-        const Vec3 v = work.base.linear + cross(work.base.angular, w.X_WS.p - work.origin);
-        const double speed = norm(v) + (std::isfinite(radius) ? norm(work.base.angular) * radius : 0.0);
-        w.margin = kBaseMargin + dt * speed;
-        w.box = bounds(type.shapes[s].shape, w.X_WS).inflated(w.margin);
+    for (const std::uint32_t s : type.shape_groups.loose) {
+        work.speed = std::max(work.speed, widen_shape(dt, work, s, work.shapes[s]));
+        work.box.include(work.shapes[s].box);
+    }
+    for (std::size_t k = 0; k < work.crowds.size(); ++k) {
+        const ShapeCrowd& crowd = type.shape_groups.crowds[k];
+        const Transform& X_WB = body_frame(work, crowd.body);
+        const double speed = speed_within(work, work.base, X_WB.p, crowd.radius);
+        work.crowds[k].margin = kBaseMargin + dt * speed;
+        work.crowds[k].box = crowd_box(crowd, X_WB, work.crowds[k].margin);
         work.speed = std::max(work.speed, speed);
-        work.box.include(w.box);
+        work.box.include(work.crowds[k].box);
     }
     if (work.shapes.empty()) work.box.include(work.origin);
 }
@@ -53,7 +56,7 @@ Aabb scenery_bound(const RobotType& type, const RobotState& state) {
 
 template void forward_kinematics<double>(const RobotType&, std::span<const double>, Mechanics<double>&);
 template void forward_velocities<double>(const RobotType&, std::span<const double>, Mechanics<double>&);
-template void place_shapes<double>(const RobotType&, double, std::span<const double>, Mechanics<double>&);
+template void place_shapes<double>(const RobotType&, double, Mechanics<double>&);
 template void compute_mass_matrix<double>(const RobotType&, double, Mechanics<double>&);
 
 Spatial base_velocity(const RobotType& type, const RobotState& state) {
@@ -75,7 +78,7 @@ void place_robot(const Model& model, RobotId id, RobotState& state, RobotWork& w
     work.placed = true;
     forward_kinematics<double>(type, state.q, work);
     forward_velocities<double>(type, state.v, work);
-    place_shapes<double>(type, model.dt_s, state.q, work);
+    place_shapes<double>(type, model.dt_s, work);
     work.base = base_velocity(type, state);
     if (!is_zero(work.base)) widen_shapes(model.dt_s, work);
     if (!type.scenery.empty()) work.box.include(scenery_bound(type, state));

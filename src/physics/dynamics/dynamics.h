@@ -6,11 +6,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "geometry/shape_bounds.h"
 #include "model/joint_motion.h"
 #include "physics/dynamics/body_impulses.h"
 #include "physics/dynamics/fluid_forces.h"
 #include "physics/dynamics/robot_work.h"
+#include "physics/dynamics/shape_places.h"
 
 namespace roboss {
 
@@ -50,7 +50,7 @@ template <class T>
 template <class T>
 TransformT<T> start_placing(const RobotType& type, std::span<const T> q, Mechanics<T>& work) {
     const TransformT<T> X_WR = base_transform(q);
-    work.origin = X_WR.p;
+    work.origin = X_WR.p, work.X_W0 = X_WR;
     work.bodies.resize(type.bodies.size());
     work.axes.resize(static_cast<std::size_t>(type.nv));
     return X_WR;
@@ -92,37 +92,6 @@ template <class T>
 template <class T>
 void forward_velocities(const RobotType& type, std::span<const T> v, Mechanics<T>& work) {
     for (std::size_t b = 0; b < type.bodies.size(); ++b) move_body(type, v, b, work);
-}
-
-template <class T>
-void place_shapes(const RobotType& type, double dt, std::span<const T> q, Mechanics<T>& work) {
-    work.shapes.resize(type.shapes.size());
-    work.box = {};
-    work.speed = {};
-    for (std::size_t s = 0; s < type.shapes.size(); ++s) {
-        const BodyShape& shape = type.shapes[s];
-        ShapeWorkT<T>& w = work.shapes[s];
-        if (shape.body < 0) {
-            w.X_WS = base_transform(q) * broadcast<T>(shape.X_BS);
-            w.margin = kBaseMargin;
-        } else {
-            const BodyWorkT<T>& body = work.bodies[static_cast<std::size_t>(shape.body)];
-            w.X_WS = body.X_WB * broadcast<T>(shape.X_BS);
-            const Vec3T<T> at_shape =
-                body.velocity.linear + cross(body.velocity.angular, w.X_WS.p - work.origin);
-            const double radius = bounding_radius(shape.shape);
-            const T speed =
-                norm(at_shape) + (std::isfinite(radius) ? norm(body.velocity.angular) * T(radius) : T(0));
-            w.margin = kBaseMargin + dt * speed;
-            work.speed = larger(work.speed, speed);
-        }
-        if constexpr (std::is_same_v<T, double>)
-            w.box = bounds(shape.shape, w.X_WS).inflated(w.margin);
-        else
-            w.box = solid_bounds(shape.shape, w.X_WS).inflated(w.margin);
-        work.box.include(w.box);
-    }
-    if (type.shapes.empty()) work.box.include(work.origin);
 }
 
 /// Springs and rotor inertias: they act along one degree of freedom, outside the tree of bodies.

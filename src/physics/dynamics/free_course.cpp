@@ -68,7 +68,7 @@ std::optional<Course> FreeCourses::find(const Model& model, const RobotWork& rob
     const BodyShape& of_body = robot.type->shapes[shape];
     if (of_body.body < 0 || !knows(model, robot, number)) return std::nullopt;
     const auto body = static_cast<std::size_t>(of_body.body);
-    const Transform& X = robot.shapes[shape].X_WS;
+    const Transform X = shape_pose(robot, shape);
     const BodyMotion from = motion_of(robot.bodies[body], robot.origin);
     return course_between(of_body.shape, X, from, flights_[number].ends[body], model.dt_s,
                           turning_speed<double>(of_body.shape, X.R, from.angular));

@@ -34,6 +34,13 @@ struct ShapeWorkT {
 };
 using ShapeWork = ShapeWorkT<double>;
 
+/// A crowd of shapes (ShapeGroups): what holds all of them.
+template <class T>
+struct CrowdWorkT {
+    AabbT<T> box;  // inflated by `margin`
+    T margin{};    // no shape of the crowd has a larger one
+};
+
 /// What one force law of the air or the water adds to the inertia of a link (fluid_forces.h).
 struct FlowWork {
     int body = 0;                    // that the link is of
@@ -46,7 +53,8 @@ struct FlowWork {
 template <class T>
 struct Mechanics {
     const RobotType* type = nullptr;
-    Vec3T<T> origin;  // O: the base origin, m, world
+    Vec3T<T> origin;     // O: the base origin, m, world
+    TransformT<T> X_W0;  // the base
     std::vector<BodyWorkT<T>> bodies;
     std::vector<SpatialT<T>> axes;  // one a degree of freedom: motion of its body per unit of v, about O
     std::vector<T> mass_matrix;     // packed by the type's paths; implicit damping and springs included
@@ -54,14 +62,15 @@ struct Mechanics {
     // beside them on the diagonal, by joint dof.
     std::vector<SpatialInertiaT<T>> own_inertias;
     std::vector<T> joint_inertias;
-    std::vector<T> impulse;       // nv: M v + dt (applied - bias); the free velocity is M^-1 of it
-    std::vector<T> velocity;      // nv: solved
-    std::vector<FlowWork> flows;  // as they stand beside the bodies' inertias
-    std::vector<ShapeWorkT<T>> shapes;
-    AabbT<T> box;                // interaction bound
-    Spatial base;                // velocity of a kinematic base about O; of others zero
-    T speed{};                   // m/s, no point of its shapes is faster
-    bool touches_robot = false;  // has a contact with another robot or itself
+    std::vector<T> impulse;             // nv: M v + dt (applied - bias); the free velocity is M^-1 of it
+    std::vector<T> velocity;            // nv: solved
+    std::vector<FlowWork> flows;        // as they stand beside the bodies' inertias
+    std::vector<ShapeWorkT<T>> shapes;  // those of crowds are not placed: see PlacedShapes, shape_pose
+    std::vector<CrowdWorkT<T>> crowds;  // as in ShapeGroups
+    AabbT<T> box;                       // interaction bound
+    Spatial base;                       // velocity of a kinematic base about O; of others zero
+    T speed{};                          // m/s, no point of its shapes is faster
+    bool touches_robot = false;         // has a contact with another robot or itself
 };
 
 struct RobotWork : Mechanics<double> {
@@ -93,8 +102,9 @@ template <class T>
 void forward_kinematics(const RobotType& type, std::span<const T> q, Mechanics<T>& work);
 template <class T>
 void forward_velocities(const RobotType& type, std::span<const T> v, Mechanics<T>& work);
+/// Places shapes and crowds, and finds the interaction bound (shape_places.h).
 template <class T>
-void place_shapes(const RobotType& type, double dt, std::span<const T> q, Mechanics<T>& work);
+void place_shapes(const RobotType& type, double dt, Mechanics<T>& work);
 /// work.impulse = momentum_weight * M v + dt * (applied - bias); with (1, 0) the generalised force alone.
 /// With a weight, drag is taken implicitly: part of it then stands in the bodies' inertias, for
 /// compute_mass_matrix.

@@ -39,7 +39,7 @@ class LaneStep final : public LaneStepper {
     void find_bounds(const Model& model, std::span<const LaneRobot> robots) override {
         Lockstep<T> together;
         place_bodies(model, robots, together);
-        place_shapes<Wide>(*work_.type, model.dt_s, state_.q(), placed());
+        place_shapes<Wide>(*work_.type, model.dt_s, placed());
         for (std::size_t i = 0; i < robots.size(); ++i) *robots[i].bound = box_of(i);
     }
 
@@ -115,7 +115,7 @@ class LaneStep final : public LaneStepper {
         const RobotType& type = *work_.type;
         leave_where(turns_fast<Wide>(placed(), model.dt_s), together);
         const bool has_contacts = robots[0].has_contacts;
-        if (model.sleep || !has_contacts) place_shapes<Wide>(type, model.dt_s, state_.q(), placed());
+        if (model.sleep || !has_contacts) place_shapes<Wide>(type, model.dt_s, placed());
         if (model.sleep) leave_where(placed().speed <= Wide(kRestSpeed), together);
         if (!has_contacts) leave_where(!is_finite(placed()), together);
         return together.any();

@@ -14,7 +14,8 @@ namespace {
 /// Nothing pushes it that lanes do not know.
 bool is_plain(const RobotType& type, const RobotState& state) {
     return !type.has_equalities() && type.drags.empty() && !type.feels_flow && !type.has_slip &&
-           type.self_pairs.empty() && state.wrenches.empty() && state.bonds.empty() && state.surfaces.empty();
+           type.self_pairs.empty() && type.shape_groups.crowds.empty() && state.wrenches.empty() &&
+           state.bonds.empty() && state.surfaces.empty();
 }
 
 }  // namespace
