@@ -152,7 +152,7 @@ struct Material {
     double stiffness = 0,         ///< N/m of a soft contact; 0: rigid
         damping = 0;              ///< N s/m of a soft contact
     double slop = 1e-5;           ///< m, penetration that a rigid contact leaves alone
-    double correction_speed = 2;  ///< m/s, at most, of penetration recovery; it never enters the velocity
+    double correction_speed = 2;  ///< m/s, at most, of recovery; only soft contacts have it as velocity
     std::uint32_t contacts_max = 0xFFFFFFFF;  ///< points kept of a pair of shapes
     std::uint32_t collide_bitmask = 0xFFFF,   ///< SDF `<collide_bitmask>`
         category_bitmask = 0xFFFF;            ///< SDF `<category_bitmask>`

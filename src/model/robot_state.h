@@ -65,7 +65,7 @@ struct ContactMemory {
     std::uint32_t other_shape = 0;  ///< of the other robot or of Model::statics
     std::uint32_t feature = 0;      ///< names the same point on the same pair of shapes from tick to tick
     double impulse = 0;             ///< normal, N s
-    double load = 0;                ///< the smaller of the last two normal impulses, N s: what is no blow
+    double load = 0;                ///< N s, no blow: smaller of the last two; if soft, what it stored
     Vec3 friction;                  ///< N s, world axes
     /// Compares all members.
     friend bool operator==(const ContactMemory&, const ContactMemory&) = default;

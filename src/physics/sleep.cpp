@@ -7,6 +7,7 @@
 #include "onboard/onboard.h"
 #include "physics/bonds/bond_keeper.h"
 #include "physics/contact/surface_motion.h"
+#include "physics/dynamics/dynamics.h"
 
 namespace roboss {
 namespace {
@@ -146,12 +147,68 @@ bool joints_rest(const RobotWork& work) {
                        });
 }
 
-/// `holds`: something holds the island of which it is a member.
-bool is_at_rest(const RobotWork& work, bool holds) {
-    const bool is_held = work.held && (work.pushed || !work.type->free_base || (work.bonded && holds));
+/// m/s, of a body that turned from one attitude to another within `dt` by little: the speed at `radius`.
+double speed_of_turn(const Mat3& from, const Mat3& to, double radius, double dt) {
+    const Vec3 a = to.r0 - from.r0, b = to.r1 - from.r1, c = to.r2 - from.r2;
+    return std::sqrt(0.5 * (norm_squared(a) + norm_squared(b) + norm_squared(c))) * radius / dt;
+}
+
+/// True if the tick moved no point of the robot faster than `most`, and turned no joint faster than joints at
+/// rest turn. The poses at the beginning of the tick, in `work`, against those of the coordinates at its end:
+/// whatever moves a robot counts, also what gives it no velocity. `after` is overwritten.
+bool stays_put(const RobotWork& work, double dt, double most, RobotWork& after) {
+    const RobotType& type = *work.type;
+    forward_kinematics<double>(type, work.state->q, after);
+    for (std::size_t b = 0; b < type.bodies.size(); ++b) {
+        const BodyWork &from = work.bodies[b], &to = after.bodies[b];
+        const Vec3 moved = (after.origin - work.origin) + (to.centre - from.centre);
+        if (norm(moved) > most * dt) return false;
+        if (type.bodies[b].joint == JointKind::kFree) continue;
+        if (speed_of_turn(from.X_WB.R, to.X_WB.R, 1, dt) > kRestJoint) return false;
+    }
+    for (std::size_t s = 0; s < type.shapes.size(); ++s) {
+        const BodyShape& shape = type.shapes[s];
+        if (shape.body < 0) continue;
+        const Transform &from = work.shapes[s].X_WS,
+                        &X_WB = after.bodies[static_cast<std::size_t>(shape.body)].X_WB;
+        const Transform to = X_WB * shape.X_BS;
+        const double radius = bounding_radius(shape.shape);
+        const double turn = std::isfinite(radius) ? speed_of_turn(from.R, to.R, radius, dt) : 0;
+        if (norm(to.p - from.p) + turn * dt > most * dt) return false;
+    }
+    return true;
+}
+
+/// The greatest speed that counts as rest in the tick, m/s: less where a contact still recovers, by surfaces
+/// so slow that this would else count as rest.
+double rest_speed(std::span<Contact* const> contacts, std::span<const SurfacePair> surfaces, double dt) {
+    constexpr double kShare = 0.5;  // of the speed of recovery
+    double speed = kRestSpeed;
+    for (std::size_t c = 0; c < std::min(contacts.size(), surfaces.size()); ++c) {
+        const Contact& contact = *contacts[c];
+        const double recovery = surfaces[c].correction_speed;
+        if (recovery * kShare >= speed || recovery == 0 || contact.gap >= 0) continue;
+        const bool recovers = surfaces[c].softness.stiffness > 0
+                                  ? contact.load < contact.impulse  // its spring has not taken all over yet
+                                  : -contact.gap - surfaces[c].slop > recovery * dt;
+        if (recovers) speed = kShare * recovery;
+    }
+    return speed;
+}
+
+/// What the members of an island have in common in a tick.
+struct IslandRest {
+    bool is_held = false;      // something holds the island
+    double dt = 0, speed = 0;  // s, m/s: what is no faster rests
+    RobotWork& buffer;
+};
+
+bool is_at_rest(const RobotWork& work, const IslandRest& island) {
+    const bool is_held =
+        work.held && (work.pushed || !work.type->free_base || (work.bonded && island.is_held));
     return work.type->may_sleep && is_held && !work.ordered && work.state->wrenches.empty() &&
            work.state->surfaces.empty() && moves_slowly(work) && joints_rest(work) &&
-           onboard_rests(*work.type, *work.state);
+           onboard_rests(*work.type, *work.state) && stays_put(work, island.dt, island.speed, island.buffer);
 }
 
 void fall_asleep(const Model& model, std::span<RobotWork> robots, std::span<const std::uint32_t> members,
@@ -221,12 +278,14 @@ void wake_touched(const Model& model, std::span<RobotWork> robots, ContactFinder
 }
 
 void settle_island(const Model& model, std::span<RobotWork> robots, std::span<const std::uint32_t> members,
-                   std::span<Contact* const> contacts, std::span<const HeldBond> bonds) {
+                   std::span<Contact* const> contacts, std::span<const SurfacePair> surfaces,
+                   std::span<const HeldBond> bonds, RobotWork& buffer) {
     if (!model.sleep) return;
     const bool holds =
         std::ranges::any_of(
             members, [&](std::uint32_t m) { return robots[m].pushed || !robots[m].type->free_base; }) ||
         std::ranges::any_of(bonds, [](const HeldBond& b) { return b.other == HeldBond::kScenery; });
+    const IslandRest island{holds, model.dt_s, rest_speed(contacts, surfaces, model.dt_s), buffer};
     const auto enough = static_cast<std::uint32_t>(std::ceil(kRestTime / model.dt_s));
     bool all = std::ranges::none_of(contacts,
                                     [&](const Contact*c) {
@@ -237,7 +296,7 @@ void settle_island(const Model& model, std::span<RobotWork> robots, std::span<co
     for (const std::uint32_t m : members) {
         if (robots[m].type->nv == 0) continue;
         Rest& rest = robots[m].state->rest;
-        rest.still_ticks = is_at_rest(robots[m], holds) ? std::min(rest.still_ticks + 1, enough) : 0;
+        rest.still_ticks = is_at_rest(robots[m], island) ? std::min(rest.still_ticks + 1, enough) : 0;
         all = all && rest.still_ticks == enough;
         any = true;
     }

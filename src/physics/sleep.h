@@ -4,9 +4,11 @@
 // point of it faster than 1 mm/s, no joint than 0.01 rad/s (or m/s), something holds it (a contact, a motor,
 // a limit: not a pendulum at its turning point), no timed wrench, and no motor that still works against
 // something (a servo that stands still off its target, drooping or stopped, rests), and nothing that it
-// touches has a surface in motion: what rides on a belt is not at rest. Its velocities then
-// become exactly zero, which takes at most half a microjoule a kilogram. Each sleeper keeps its interaction
-// bound and the robots that it touches (frozen edges).
+// touches has a surface in motion: what rides on a belt is not at rest. Both its velocity and what the tick
+// moved it by must be as slow: penetration recovery, bonds and guards move robots whose velocity is zero.
+// Where a contact recovers more slowly than 2 mm/s, half of its speed counts instead of 1 mm/s. The
+// velocities then become exactly zero, which takes at most half a microjoule a kilogram. Each sleeper keeps
+// its interaction bound and the robots that it touches (frozen edges).
 //
 // A sleeper wakes, before the tick is solved, by an order (apply_order), by an awake robot that touches it or
 // comes to within 2 mm of it while moving, and when a robot that it touched, or was bonded with, is awake or
@@ -19,6 +21,7 @@
 #include <vector>
 
 #include "physics/contact/contact.h"
+#include "physics/contact/surface_pair.h"
 
 namespace roboss {
 
@@ -52,8 +55,10 @@ void wake_sleeper(const Model& model, std::span<RobotWork> robots, std::uint32_t
                   WakeBuffers& buffers);
 
 /// Counts the ticks that the robots of a contact island have been at rest, and puts it to sleep when all are.
-/// `members` index `robots`; `contacts` are the island's, solved, and `bonds` those that join its robots.
+/// `members` index `robots`, placed as they were at the beginning of the tick; `contacts` are the island's,
+/// solved, with their `surfaces`, and `bonds` those that join its robots. Overwrites `buffer`.
 void settle_island(const Model& model, std::span<RobotWork> robots, std::span<const std::uint32_t> members,
-                   std::span<Contact* const> contacts, std::span<const HeldBond> bonds);
+                   std::span<Contact* const> contacts, std::span<const SurfacePair> surfaces,
+                   std::span<const HeldBond> bonds, RobotWork& buffer);
 
 }  // namespace roboss

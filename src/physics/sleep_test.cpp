@@ -268,6 +268,54 @@ TEST(Sleep, APendulumAtItsTurningPointAndASlowDriftStayAwake) {
     }
 }
 
+/// A box of 1 m and 1 kg at that height of its centre, over a plane.
+World box_in_the_ground(double height, double max_vel = -1) {
+    World world = sleepy_world(1e-3);
+    SurfaceSpec s = surface(0.6);
+    s.max_vel = max_vel;
+    place(world, solid_box(1.0, {1, 1, 1}, s), "box", {{0, 0, height}, {}});
+    return world;
+}
+
+TEST(Sleep, WhatIsPushedOutOfTheGroundStaysAwakeUntilItIsOut) {
+    struct Case {
+        double height, max_vel, seconds;
+    };
+    // The deepest, at 2 m/s; at 1 cm/s; so slowly that the speed alone would count as rest.
+    for (const Case& c : {Case{-1.5, -1, 4}, Case{0.45, 0.01, 8}, Case{0.499, 5e-4, 6}}) {
+        Simulation sim(box_in_the_ground(c.height, c.max_vel));
+        while (sim.time() < c.seconds && !sim.states[0].rest.asleep) sim.step();
+        EXPECT_TRUE(sim.states[0].rest.asleep) << "from " << c.height;
+        EXPECT_NEAR(sim.states[0].q[2], 0.5 - 1e-5, 1e-5) << "from " << c.height;
+    }
+}
+
+TEST(Sleep, WhatMayNotBePushedOutSleeps) {
+    Simulation sim(box_in_the_ground(0.45, 0));
+    ASSERT_TRUE(fall_asleep(sim, 2));
+    EXPECT_NEAR(sim.states[0].q[2], 0.45, 1e-9);
+}
+
+TEST(Sleep, APoleOnABaseThatIsPushedOutFallsOver) {
+    World world = sleepy_world(1e-3);
+    ModelSpec robot = solid_box(10.0, {0.6, 0.6, 0.1}, surface(0.6));
+    robot.links.push_back(link("pole", 1.0, box_inertia(1.0, {0.05, 0.05, 0.8}), {{0, 0, 0.5}, {}}));
+    robot.joints.push_back(
+        joint(JointSpecKind::kRevolute, "hinge", robot.links[0].name, "pole", {{0, 0, 0.1}, {}}, {0, 1, 0}));
+    robot.joints[0].axes[0].lower = -2, robot.joints[0].axes[0].upper = 2;
+    place(world, robot, "robot", {{0, 0, -1.2}, {}});
+    World sleepless = world;
+    sleepless.sleep = false;
+    Simulation sleepy(world), awake(sleepless);
+    for (Simulation* sim : {&sleepy, &awake}) {
+        sim->states[0].q[7] = 0.3;
+        sim->run(10);
+    }
+    EXPECT_GT(std::fabs(awake.states[0].q[7]), 1.5);
+    EXPECT_NEAR(sleepy.states[0].q[7], awake.states[0].q[7], 5e-3);
+    EXPECT_NEAR(sleepy.states[0].q[2], awake.states[0].q[2], 1e-3);
+}
+
 TEST(Sleep, CanBeForbiddenForAModelAndForTheWorld) {
     for (const bool model : {true, false}) {
         World world = sleepy_stack(3);

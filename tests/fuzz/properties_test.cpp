@@ -68,6 +68,14 @@ TEST(Property, StatesStayFinite) {
     expect_holds({"finite", 64, 2, {"wild", "crowd", "room", "acting"}});
 }
 
+TEST(Property, SleepersEndWhereTheyWouldWithoutSleep) {
+    expect_holds({"asleep", 60, 3});
+}
+
+TEST(Property, WhatStartsInTheGroundIsNotThrown) {
+    expect_holds({"thrown", 60, 1});
+}
+
 TEST(Property, WhoPassesClearIsNotPushed) {
     expect_holds({"ghost", 900, 0});
 }

@@ -80,6 +80,32 @@ std::vector<Property> make_properties() {
     };
 }
 
+/// Those of robots that start overlapping.
+std::vector<Property> make_overlap_properties() {
+    const std::vector<double> steps{1e-3, 2e-3, 4e-3};
+    const auto overlapping = kinds_where([](const SceneKind& k) { return k.overlaps; });
+    return {
+        {"asleep",
+         "robots that start overlapping end where they would without sleep: within 2 mm, and 1 mm/s asleep",
+         "largest distance from there, of the bound",
+         overlapping,
+         steps,
+         {0},
+         {0},
+         4,
+         run_asleep},
+        {"thrown",
+         "what starts in the ground gets no more speed than its surfaces give recovery, and by falling",
+         "largest kinetic energy beyond that of the fall, of the bound",
+         {"sunk"},
+         steps,
+         {0},
+         {0},
+         2,
+         run_thrown},
+    };
+}
+
 /// Those of whole runs.
 std::vector<Property> make_run_properties() {
     const auto any = kinds_where([](const SceneKind&) { return true; });
@@ -133,6 +159,7 @@ std::vector<std::string> kinds_where(bool (*wanted)(const SceneKind&)) {
 std::span<const Property> properties() {
     static const std::vector<Property> all = [] {
         std::vector<Property> list = make_properties();
+        std::ranges::move(make_overlap_properties(), std::back_inserter(list));
         std::ranges::move(make_run_properties(), std::back_inserter(list));
         return list;
     }();

@@ -54,11 +54,20 @@ std::vector<std::string> kinds_where(bool (*wanted)(const SceneKind&));
 inline constexpr double kEnergyGrowthMost = 1e-3;   // of itself
 inline constexpr double kStartErrorMost = 1e-6;     // m or rad
 inline constexpr double kMomentumDriftMost = 1e-6;  // of what the links' momenta amount to
+// m, and m/s since the first fell asleep: how far sleepers are from where they would be
+inline constexpr double kSleepersApartMost = 2e-3, kSleepersDriftMost = 1e-3;
+inline constexpr double kJudgedBelow =
+    0.02;  // m/s or rad/s: while a base or joint is faster, sleepers are not judged
+// Kinetic energy beyond that of a fall: in those of the speed of recovery, as a share of that of the fall
+// (the error of a step of first order), and as a height, m.
+inline constexpr double kThrownMost = 4, kFallErrorMost = 0.05, kThrownHeightMost = 2e-3;
 
 Finding run_energy(const Request& request);
 Finding run_momentum(const Request& request);
 Finding run_start(const Request& request);
 Finding run_finite(const Request& request);
+Finding run_asleep(const Request& request);
+Finding run_thrown(const Request& request);
 Finding run_ghost(const Request& request);
 Finding run_tunnel(const Request& request);
 Finding run_hash(const Request& request);

@@ -9,6 +9,7 @@
 #include <support/robots.h>
 
 #include "core/check.h"
+#include "fuzz/overlaps.h"
 #include "model/accuracy.h"
 #include "physics/dynamics/equality.h"
 
@@ -298,6 +299,8 @@ constexpr SceneKind kKinds[] = {
     {"acting", "robots with on-board controllers that are commanded and hold each other", acting, false,
      false},
     {"net", "a free mechanism with six loops and more", net, true, true},
+    {"sunk", "a robot that starts in the ground", sunk, false, false, true},
+    {"jammed", "robots that start in the ground and in each other", jammed, false, false, true},
 };
 
 /// Any motor at all, with targets far beyond what it can reach.
@@ -370,20 +373,21 @@ std::vector<RobotState> start_states(const Model& model, const Scene& scene, con
     return states;
 }
 
-Start make_start(const Setting& setting, bool floats) {
+Start make_start(const Setting& setting, bool floats, bool sleeps) {
     const SceneKind* kind = find_scene_kind(setting.kind);
     ROBOSS_CHECK(kind != nullptr, "there is no such kind of scene");
     Random random(setting.seed);
     Scene scene = kind->make(random, setting);
     if (floats) scene.world.precision = Precision::kFloat;
+    scene.world.sleep &= sleeps;
     Start start;
     start.model = compile_scene(scene.world);
     start.states = start_states(*start.model, scene, setting, random);
     return start;
 }
 
-Motion::Motion(const Setting& setting) {
-    Start start = make_start(setting);
+Motion::Motion(const Setting& setting, bool sleeps) {
+    Start start = make_start(setting, false, sleeps);
     model_ = std::move(start.model), states_ = std::move(start.states);
     for (std::size_t r = 0; r < states_.size(); ++r) ids_.emplace_back(r), pointers_.push_back(&states_[r]);
     bounds_.resize(states_.size());

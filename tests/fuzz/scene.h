@@ -35,8 +35,9 @@ struct SceneKind {
     const char* name;
     const char* what;
     Scene (*make)(Random& random, const Setting& setting);
-    bool passive;   // its energy must not grow
-    bool isolated;  // nothing acts from outside: its momentum must stay
+    bool passive;           // its energy must not grow
+    bool isolated;          // nothing acts from outside: its momentum must stay
+    bool overlaps = false;  // its robots start in each other or in the ground, and may sleep
 };
 
 /// The first robot with a coordinate or velocity that is not finite; not valid: none.
@@ -46,18 +47,19 @@ std::span<const SceneKind> scene_kinds();
 /// nullptr: there is none of that name.
 const SceneKind* find_scene_kind(const std::string& name);
 
-/// A compiled scene and its start. `floats`: stepped in floats.
+/// A compiled scene and its start.
 struct Start {
     std::shared_ptr<const Model> model;
     std::vector<RobotState> states;  // by RobotId
 };
 /// Aborts if the world does not compile: a generator makes valid worlds only.
-Start make_start(const Setting& setting, bool floats = false);
+/// `floats`: stepped in floats; `sleeps`: robots that the scene lets sleep do.
+Start make_start(const Setting& setting, bool floats = false, bool sleeps = true);
 
 /// A scene being stepped, all robots in one call.
 class Motion {
   public:
-    explicit Motion(const Setting& setting);
+    explicit Motion(const Setting& setting, bool sleeps = true);
 
     const StepReport& step();
     double time_s() const { return static_cast<double>(tick_) * model_->dt_s; }

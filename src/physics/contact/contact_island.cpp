@@ -478,7 +478,7 @@ void ContactIsland::close_bonds() {
 }
 
 void ContactIsland::put_to_sleep() {
-    settle_island(model_, robots_, members_, s_.contacts, s_.bonds);
+    settle_island(model_, robots_, members_, s_.contacts, s_.surfaces, s_.bonds, s_.free_buffer.work);
 }
 
 }  // namespace roboss

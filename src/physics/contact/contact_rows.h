@@ -60,7 +60,9 @@ inline constexpr double kWeights =
 inline constexpr double kTouchTicks = 2;
 inline constexpr double kSticking = 0.99;  // of the friction bound; beyond, a contact is taken for sliding
 inline constexpr double kSoftBlow = 10;    // m/s
-inline constexpr double kDeep = 2e-4;      // m of penetration beyond the slop
+inline constexpr double kTakenOver =
+    0.1;                               // of the speed of recovery: how fast a spring takes over an overlap
+inline constexpr double kDeep = 2e-4;  // m of penetration beyond the slop
 inline constexpr double kCorrectionShare = 0.3,
                         kDeepCorrectionShare =
                             0.1;  // of the penetration beyond the slop and, of that, beyond kDeep, in a tick
@@ -170,22 +172,49 @@ NormalTargets<T> impact(const ContactT<T>& c, const SurfacePair& surface, const 
     return targets;
 }
 
+/// How much of an overlap of `depth` the contact's own motion made, m: what its spring may give back. A
+/// contact that is new made what it approached by; one that is remembered has the share that its load keeps,
+/// but no more than the force of its last tick shows (an order may have moved it since). The rest of the
+/// overlap was there at the start. It is taken over so slowly that a contact at rest becomes a plain spring,
+/// and nothing is thrown.
+template <class T>
+T sprung_depth(const ContactT<T>& c, const SurfacePair& surface, const T& depth, const T& approach,
+               double dt) {
+    const Softness& soft = surface.softness;
+    const MaskOf<T> known = c.impulse > T(0);
+    const T kept = depth * (c.load / c.impulse),
+            shown = (c.impulse / T(dt) - T(soft.damping) * approach) / T(soft.stiffness),
+            made = select(known, larger(smaller(kept, shown), T(0)), larger(approach, T(0)) * T(dt));
+    return smaller(depth, made + T(kTakenOver * surface.correction_speed * dt));
+}
+
 /// A spring and damper taken implicitly: force = stiffness * depth - damping * u with the depth and the
 /// velocity at the end of the tick, never pulling. A gap is closed first, and damps for its share of the
-/// tick. The spring counts as compressed no deeper than a body of mobility `ease` could have come by a blow
-/// of kSoftBlow: shapes that start deep in each other are not shot apart. False if the contact is as hard as
-/// rigid ones, of compliance `rigid`.
+/// tick. Of an overlap that no motion made, `unsprung`, the force falls to zero where the surfaces part at
+/// the speed of recovery: damping = stiffness * unsprung / speed besides. So shapes that start in each other
+/// are pushed apart by what would bear them there, but no faster. The spring counts as compressed no deeper
+/// than a body of mobility `inverse_effective_mass` could have come by a blow of kSoftBlow. False if the
+/// contact is as hard as rigid ones, of compliance `rigid`.
 template <class T>
-bool set_softness(const ContactT<T>& c, const Softness& soft, double dt, double inverse_effective_mass,
-                  double rigid, BoundedRowT<T>& row) {
+bool set_softness(const ContactT<T>& c, const SurfacePair& surface, const T& approach, double dt,
+                  double inverse_effective_mass, double rigid, ContactRowT<T>& row) {
+    const Softness& soft = surface.softness;
     if (soft.stiffness <= 0) return false;
-    const double compliance = 1.0 / (dt * dt * soft.stiffness + dt * soft.damping);
-    if (compliance < rigid) return false;
-    row.compliance = compliance;
-    const T depth = smaller(-c.gap, T(kSoftBlow / std::sqrt(soft.stiffness * inverse_effective_mass)));
-    row.target = select(c.gap <= T(0), depth * T(soft.stiffness) / T(dt * soft.stiffness + soft.damping),
-                        -c.gap / T(dt));
-    row.position_target = row.target;
+    if (1.0 / (dt * dt * soft.stiffness + dt * soft.damping) < rigid) return false;
+    constexpr double kSlowest = 1e-9;  // m/s
+    const T most = T(kSoftBlow / std::sqrt(soft.stiffness * inverse_effective_mass)),
+            depth = larger(-c.gap, T(0));
+    const T unsprung = depth - sprung_depth(c, surface, depth, approach, dt),
+            braking =
+                T(soft.stiffness / std::max(surface.correction_speed, kSlowest)) * smaller(unsprung, most);
+    row.normal.compliance =
+        larger(T(1) / (T(dt * dt * soft.stiffness + dt * soft.damping) + T(dt) * braking), T(rigid));
+    row.normal.target =
+        select(c.gap <= T(0),
+               smaller(depth, most) * T(soft.stiffness) / (T(dt * soft.stiffness + soft.damping) + braking),
+               -c.gap / T(dt));
+    row.normal.position_target = row.normal.target;
+    row.unsprung = unsprung / T(dt), row.overlap = -c.gap / T(dt) - row.normal.target;
     return true;
 }
 
@@ -299,9 +328,8 @@ MaskOf<T> add_contact_row(const Model& model, const ContactT<T>& c, const Surfac
         select(loaded | !hits, T(loaded_compliance<T>(model.accuracy)), T(new_compliance<T>(model.accuracy)));
     row.normal.high = std::numeric_limits<double>::infinity();
     row.normal.impulse = c.impulse;
-    row.soft =
-        contact::set_softness(c, surface.softness, dt, inverse_effective_mass,
-                              inverse_effective_mass * bounce_compliance<T>(model.accuracy), row.normal);
+    row.soft = contact::set_softness(c, surface, approach, dt, inverse_effective_mass,
+                                     inverse_effective_mass * bounce_compliance<T>(model.accuracy), row);
     MaskOf<T> split = false;
     if (!row.soft)
         split = contact::set_normal(c, surface, approach, gravity_n, dt, compliance,

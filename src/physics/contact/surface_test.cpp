@@ -80,6 +80,69 @@ TEST(SoftContact, NeverPullsAndNeverGivesEnergy) {
     EXPECT_LT(gain, 1e-6);
 }
 
+/// Highest speed of a ball that starts `depth` in the ground, m/s.
+double speed_out_of(Simulation& sim, double seconds) {
+    double fastest = 0;
+    while (sim.time() < seconds) {
+        sim.step();
+        fastest = std::fmax(fastest, sim.states[0].v[5]);
+    }
+    return fastest;
+}
+
+TEST(SoftContact, PushesOutOfTheGroundNoFasterThanItsSurfacesSay) {
+    for (const double max_vel : {0.01, 0.1, 1.0, -1.0})
+        for (const double stiffness : {1e4, 1e5, 1e7})
+            for (const double damping : {0.0, 1.0, 100.0}) {
+                SurfaceSpec s = soft(stiffness, damping);
+                s.max_vel = max_vel;
+                const double most = max_vel < 0 ? 2 : max_vel;
+                Simulation sim(ball_on_plane(1e-3, s, surface(0.5), -0.03));
+                EXPECT_LE(speed_out_of(sim, 1), most) << stiffness << " N/m, " << damping << " N s/m";
+                if (most < 0.1) continue;
+                sim.run(3);
+                EXPECT_NEAR((0.1 - sim.states[0].q[2]) / (2.0 * kG / stiffness), 1, 1e-2) << stiffness;
+            }
+}
+
+TEST(SoftContact, ThrowsNoBoxWhoseFourCornersStartInTheGround) {
+    SurfaceSpec s = soft(1e5, 1);
+    s.max_vel = 0.1, s.min_depth = 1e-3;
+    World world = empty_world(1e-3);
+    place(world, ground(surface(0.5)), "ground");
+    place(world, solid_box(3.0, {0.1, 0.1, 0.1}, s), "box", {{0, 0, 0.04}, {}});
+    Simulation sim(world);
+    EXPECT_LE(speed_out_of(sim, 1), 0.1);
+    sim.run(2);
+    EXPECT_NEAR(sim.states[0].q[2], 0.05 - 3 * kG / 4e5, 1e-6);
+}
+
+TEST(SoftContact, ThrowsNothingThatAnOrderPutIntoTheGround) {
+    SurfaceSpec s = soft(1e5, 1);
+    s.max_vel = 0.1;
+    Simulation sim(ball_on_plane(1e-3, s, surface(0.5), 0));
+    sim.run(0.5);
+    const Order down{sim.tick, ClientId(0u), 1, RobotId(0u), SetPose{{{0, 0, 0.09}, {}}}};
+    sim.step({&down, 1});
+    EXPECT_LE(speed_out_of(sim, sim.time() + 1), 0.1);
+}
+
+/// What falls onto a spring gets back what it brought, however slowly its surfaces recover.
+TEST(SoftContact, ReboundsWhateverTheSpeedOfRecovery) {
+    std::vector<double> heights;
+    for (const double max_vel : {-1.0, 0.01}) {
+        SurfaceSpec s = soft(5e4, 1);
+        s.max_vel = max_vel;
+        Simulation sim(ball_on_plane(1e-4, s, surface(0.5), 0.3));
+        while (sim.states[0].v[5] <= 0) sim.step();
+        double highest = 0;
+        while (sim.states[0].v[5] > 0) sim.step(), highest = sim.states[0].q[2] - 0.1;
+        heights.push_back(highest);
+    }
+    EXPECT_GT(heights[0], 0.2);
+    EXPECT_NEAR(heights[1], heights[0], 0.01);
+}
+
 TEST(SoftContact, AsStiffAsRigidOnesIsRigid) {
     Simulation rigid(ball_on_plane(1e-3, surface(0.5), surface(0.5), 0)),
         hard(ball_on_plane(1e-3, soft(1e13, 1), surface(0.5), 0));

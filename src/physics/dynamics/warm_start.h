@@ -17,10 +17,20 @@ void store_warm_start(const T& impulse, MotorSetpointT<T>& motor) {
     motor.impulse = impulse;
 }
 
+/// A soft contact's load is the share of its impulse that its spring gave by overlap that motion made
+/// (contact::sprung_depth).
+template <class T>
+T spring_load(const ContactRowT<T>& row) {
+    const T overlap = row.overlap + row.normal.impulse * row.normal.compliance,
+            sprung = overlap - row.unsprung;
+    return select(sprung > T(0), row.normal.impulse * (sprung / overlap), T(0));
+}
+
 template <class T>
 void take_impulse(const ContactRowT<T>& row, const FrictionEllipse& friction, ContactT<T>& contact) {
     const ContactFrameT<T> frame = frame_of(contact.normal, friction);
-    contact.load = smaller(smaller(contact.impulse, row.normal.impulse), row.warm_start_max);
+    contact.load = row.soft ? spring_load(row)
+                            : smaller(smaller(contact.impulse, row.normal.impulse), row.warm_start_max);
     contact.impulse = row.normal.impulse;
     contact.friction = frame.t1 * row.slip.impulse_1 + frame.t2 * row.slip.impulse_2;
 }
