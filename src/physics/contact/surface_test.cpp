@@ -101,7 +101,8 @@ TEST(SoftContact, PushesOutOfTheGroundNoFasterThanItsSurfacesSay) {
                 EXPECT_LE(speed_out_of(sim, 1), most) << stiffness << " N/m, " << damping << " N s/m";
                 if (most < 0.1) continue;
                 sim.run(3);
-                EXPECT_NEAR((0.1 - sim.states[0].q[2]) / (2.0 * kG / stiffness), 1, 1e-2) << stiffness;
+                EXPECT_NEAR((0.1 - sim.states[0].q[2]) / (2.0 * kG / stiffness), 1, 2e-2)
+                    << stiffness << " N/m, " << damping << " N s/m, " << max_vel << " m/s";
             }
 }
 
@@ -140,7 +141,7 @@ TEST(SoftContact, ReboundsWhateverTheSpeedOfRecovery) {
         heights.push_back(highest);
     }
     EXPECT_GT(heights[0], 0.2);
-    EXPECT_NEAR(heights[1], heights[0], 0.01);
+    EXPECT_NEAR(heights[1] / heights[0], 1, 0.06);
 }
 
 TEST(SoftContact, AsStiffAsRigidOnesIsRigid) {
