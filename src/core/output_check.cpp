@@ -25,7 +25,7 @@ constexpr std::array kKinds{
     Kind{"reading", "a table of one reading", "name,index,value,unit", ""},
     Kind{"summary", "a summary of a run", "{\n  \"world\":", ""},
     Kind{"device summary", "a summary of devices", "{\"calls\":", ""},
-    Kind{"log", "a log of --log", "", "Z level="},
+    Kind{"log", "a text to which a log may be added", "", ""},
     Kind{"svg", "an SVG picture", "", "<svg"},
     Kind{"png", "a PNG picture", "\x89PNG", ""},
     Kind{"pdf", "a PDF file", "%PDF", ""},
@@ -43,6 +43,17 @@ const Kind& kind_of(std::string_view name) {
     const auto* const found = std::ranges::find(kKinds, name, &Kind::name);
     ROBOSS_CHECK(found != kKinds.end(), std::string(name));
     return *found;
+}
+
+bool is(const std::string& bytes, const Kind& kind) {
+    return bytes.starts_with(kind.head) && bytes.find(kind.within) != std::string::npos;
+}
+
+/// A log is added to its file, and keeps what was there: any text that is nothing else.
+bool takes_log(const std::string& bytes) {
+    const auto other = [&](const Kind& kind) { return kind.name != "log" && is(bytes, kind); };
+    return bytes.find('\0') == std::string::npos && !bytes.starts_with('{') && !bytes.starts_with('[') &&
+           std::ranges::none_of(kKinds, other);
 }
 
 bool is_none(const std::string& path) {
@@ -76,8 +87,7 @@ bool may_become(const std::string& path, std::string_view kind) {
     file.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
     if (file.bad() || !file.is_open()) return true;  // opening it for writing says why it cannot be
     bytes.resize(static_cast<std::size_t>(file.gcount()));
-    const Kind& wanted = kind_of(kind);
-    return bytes.starts_with(wanted.head) && bytes.find(wanted.within) != std::string::npos;
+    return kind == "log" ? takes_log(bytes) : is(bytes, kind_of(kind));
 }
 
 void OutputCheck::reads(const std::string& path) {

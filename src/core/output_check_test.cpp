@@ -59,8 +59,11 @@ TEST_F(Outputs, NeverReplaceAFileOfAnotherKind) {
     file("kept.csv", "a,b\n");
     fs::create_symlink(path("kept.csv"), path("link.csv"));
     EXPECT_EQ(code_of(path("link.csv")), "other-kind");
+    EXPECT_EQ(code_of(file("robot.urdf", kWorld), "log"), "other-kind");
+    EXPECT_EQ(code_of(file("orders.jsonl", "{\"t\":1}"), "log"), "other-kind");
+    EXPECT_EQ(code_of(file("bytes", std::string("a\0b", 3)), "log"), "other-kind");
     for (const std::string_view kind : file_kinds()) {
-        EXPECT_FALSE(may_become(path("notes.txt"), kind)) << kind;
+        EXPECT_EQ(may_become(path("notes.txt"), kind), kind == "log") << kind << ": it adds to a text";
         EXPECT_EQ(may_become(file("trace.csv", kTrace), kind), kind == "trace") << kind;
     }
 }

@@ -35,7 +35,7 @@ class Recorded:
         self.saved = FOLDER / "with_crates.roboss"
         self.name = f"branches_{time.time_ns()}"
         process = subprocess.Popen([ROBOSS, "run", YARD, "--simulation", self.name, "--paused", "--headless", "--quiet",
-                                    "--journal", self.journal, "--journal-every", "0.1"],
+                                    "--journal", self.journal, "--journal-every", "0.1", "--save-folder", FOLDER],
                                    stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
         self.step(250)
         self.ask("add", CRATE, "--name", "crate", "--count", 3, "--grid", "1 1 3", "--pose", "0 2 0 0 0 0")
@@ -171,7 +171,10 @@ class Guarded(RobossTest):
     def test_files_of_another_kind_are_never_replaced(self):
         notes = FOLDER / "notes.txt"
         notes.write_text("remember")
-        for option in ("--trace", "--contacts", "--json", "--log", "--picture", "--save"):
+        other = FOLDER / "other.sdf"
+        shutil.copy(YARD, other)
+        self.refused(["run", YARD, "--log", other, "--duration", 0.01, "--headless"], 1, "[other-kind]")
+        for option in ("--trace", "--contacts", "--json", "--picture", "--save"):
             self.refused(["run", YARD, option, notes, "--duration", 0.01, "--headless"], 1, "nothing else is overwritten")
         self.refused(["sense", YARD, "--robot", "old", "--sensor", "x", "-o", YARD], 1)
         self.assertEqual(notes.read_text(), "remember")
