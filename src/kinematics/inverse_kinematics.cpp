@@ -34,8 +34,7 @@ struct Unknown {
 
 /// What moves a tool: a degree of freedom on its path, and by which unknown.
 struct Lever {
-    std::size_t v = 0, unknown = 0;
-    double multiplier = 1;
+    std::size_t v = 0, unknown = 0, column = 0;
 };
 
 /// The search for one target after the other.
@@ -77,7 +76,7 @@ class Search {
         const auto leader = static_cast<std::size_t>(own.leader);
         if (!options_.moving.empty() && options_.moving[leader] == 0) return;
         const auto found = std::ranges::find(unknowns_, leader, &Unknown::column);
-        levers_.push_back({v, static_cast<std::size_t>(found - unknowns_.begin()), own.multiplier});
+        levers_.push_back({v, static_cast<std::size_t>(found - unknowns_.begin()), column - robot_.base_v()});
         if (found == unknowns_.end()) unknowns_.push_back({leader});
     }
 
@@ -86,6 +85,7 @@ class Search {
         unknown.lower = -INFINITY, unknown.upper = INFINITY;
         for (const RobotModel::Column& column : robot_.columns()) {
             if (static_cast<std::size_t>(column.leader) != unknown.column || column.multiplier == 0) continue;
+            if (!column.curved.empty()) continue;  // its own limits are those of a wrong coupling
             const double a = (column.lower - column.leader_offset) / column.multiplier,
                          b = (column.upper - column.leader_offset) / column.multiplier;
             unknown.lower = std::max(unknown.lower, std::min(a, b));
@@ -140,7 +140,7 @@ class Search {
             const RobotModel::Column& leader = robot_.columns()[static_cast<std::size_t>(column.leader)];
             if (&leader != &column)
                 posed_.q[static_cast<std::size_t>(column.q)] =
-                    column.multiplier * posed_.q[static_cast<std::size_t>(leader.q)] + column.leader_offset;
+                    column.follow(posed_.q[static_cast<std::size_t>(leader.q)]);
         }
     }
 
@@ -160,7 +160,10 @@ class Search {
         for (const Lever& lever : levers_) {
             const SixNumbers each = error.reduction(posed_.point_motion(lever.v, p));
             SixNumbers& sum = unknowns_[lever.unknown].reduction;
-            for (std::size_t i = 0; i < 6; ++i) sum[i] += lever.multiplier * each[i];
+            const RobotModel::Column& column = robot_.columns()[lever.column];
+            const RobotModel::Column& leader = robot_.columns()[static_cast<std::size_t>(column.leader)];
+            const double slope = column.slope(posed_.q[static_cast<std::size_t>(leader.q)]);
+            for (std::size_t i = 0; i < 6; ++i) sum[i] += slope * each[i];
         }
     }
 

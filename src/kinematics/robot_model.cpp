@@ -66,6 +66,40 @@ void RobotModel::add_axes(const std::vector<JointAxis>& all) {
     }
 }
 
+namespace {
+
+CoordinateCoupling proportional(const RobotModel::Column& column) {
+    CoordinateCoupling coupling;
+    coupling.multiplier = column.multiplier, coupling.offset = column.leader_offset;
+    return coupling;
+}
+
+/// `leader` follows another one, too.
+void follow_curved(RobotModel::Column& column, const RobotModel::Column& leader) {
+    if (column.curved.empty() && leader.curved.empty()) return;
+    if (column.curved.empty()) column.curved = {proportional(column)};
+    if (leader.curved.empty()) return column.curved.push_back(proportional(leader));
+    column.curved.insert(column.curved.end(), leader.curved.begin(), leader.curved.end());
+}
+
+}  // namespace
+
+double RobotModel::Column::follow(double leader_at) const {
+    if (curved.empty()) return multiplier * leader_at + leader_offset;
+    for (std::size_t k = curved.size(); k-- > 0;) leader_at = curved[k].follow(leader_at);
+    return leader_at;
+}
+
+double RobotModel::Column::slope(double leader_at) const {
+    if (curved.empty()) return multiplier;
+    double product = 1;
+    for (std::size_t k = curved.size(); k-- > 0;) {
+        product *= curved[k].slope(leader_at);
+        leader_at = curved[k].follow(leader_at);
+    }
+    return product;
+}
+
 /// Followers of followers follow the first of them.
 void RobotModel::add_followers() {
     const auto column_of_dof = [&](int index) -> Column& {
@@ -75,11 +109,13 @@ void RobotModel::add_followers() {
         Column& follower = column_of_dof(c.follower);
         follower.leader = static_cast<int>(&column_of_dof(c.leader) - columns_.data());
         follower.multiplier = c.multiplier, follower.leader_offset = c.offset;
+        if (c.is_curved()) follower.curved = {c};
     }
     for (Column& column : columns_) {
         for (std::size_t guard = 0; guard < columns_.size(); ++guard) {
             const Column& leader = columns_[static_cast<std::size_t>(column.leader)];
             if (&leader == &column || &columns_[static_cast<std::size_t>(leader.leader)] == &leader) break;
+            follow_curved(column, leader);
             column.leader_offset += column.multiplier * leader.leader_offset;
             column.multiplier *= leader.multiplier;
             column.leader = leader.leader;

@@ -48,6 +48,12 @@ class RobotModel {
         double multiplier = 1,  ///< position = multiplier * leader's position + leader_offset
             leader_offset = 0;  ///< rad or m
         bool turns = false;     ///< it is an angle
+        /// From its own coupling to that of the last follower before `leader`, if one of them is curved: then
+        /// they count instead of the two numbers.
+        std::vector<CoordinateCoupling> curved{};
+
+        double follow(double leader_at) const;  ///< its position with the leader there
+        double slope(double leader_at) const;   ///< how fast it moves with the leader there
     };
 
     /// `robot` must exist in the model. Errors: "closed-loop", joints close kinematic loops; "no-joints",

@@ -266,6 +266,45 @@ bool has_its_parts(const aiScene& scene) {
     return true;
 }
 
+Vec3 corner_of(const aiMesh& mesh, const aiFace& face, unsigned k) {
+    const aiVector3D& p = mesh.mVertices[face.mIndices[k]];
+    return {p.x, p.y, p.z};
+}
+
+/// Whether the diagonal from the first corner lies inside the quadrangle: both triangles face one way.
+bool splits_at_first(const aiMesh& mesh, const aiFace& face) {
+    const Vec3 p = corner_of(mesh, face, 0), diagonal = corner_of(mesh, face, 2) - p;
+    return dot(cross(corner_of(mesh, face, 1) - p, diagonal), cross(diagonal, corner_of(mesh, face, 3) - p)) >
+           0;
+}
+
+/// Splits quadrangles of OBJ along the diagonal from their first corner, as MuJoCo does: where the corners
+/// are not in one plane, the volume depends on it. assimp takes the other one.
+void split_quadrangles(aiMesh& mesh) {
+    std::vector<aiFace> faces;
+    for (unsigned f = 0; f < mesh.mNumFaces; ++f) {
+        const aiFace& face = mesh.mFaces[f];
+        if (face.mNumIndices != 4 || !splits_at_first(mesh, face)) {
+            faces.push_back(face);
+            continue;
+        }
+        for (const unsigned k : {1U, 2U}) {
+            aiFace& triangle = faces.emplace_back();
+            triangle.mNumIndices = 3;
+            triangle.mIndices = new unsigned[3]{face.mIndices[0], face.mIndices[k], face.mIndices[k + 1]};
+        }
+    }
+    delete[] mesh.mFaces;
+    mesh.mNumFaces = static_cast<unsigned>(faces.size());
+    mesh.mFaces = new aiFace[faces.size()];
+    std::ranges::copy(faces, mesh.mFaces);
+    // assimp refuses a mesh that says that it has polygons, and has none.
+    const auto is_polygon = [](const aiFace& face) { return face.mNumIndices > 3; };
+    if (std::ranges::none_of(faces, is_polygon))
+        mesh.mPrimitiveTypes &= ~static_cast<unsigned>(aiPrimitiveType_POLYGON);
+    mesh.mPrimitiveTypes |= aiPrimitiveType_TRIANGLE;
+}
+
 Result<const aiScene*> triangulated(Assimp::Importer& importer) {
     if (!has_its_parts(*importer.GetScene()))
         return unreadable("a face has a vertex, or a node a mesh, that is not there");
@@ -304,6 +343,9 @@ Result<const aiScene*> open_scene(Assimp::Importer& importer, const std::string&
     if (extension == ".ply")
         if (const Result<> good = check_ply(text_of(path)); !good) return good.error();
     if (importer.ReadFile(path, 0) == nullptr) return unreadable(importer.GetErrorString());
+    if (extension == ".obj" && has_its_parts(*importer.GetScene()))
+        for (unsigned m = 0; m < importer.GetScene()->mNumMeshes; ++m)
+            split_quadrangles(*importer.GetScene()->mMeshes[m]);
     return triangulated(importer);
 }
 

@@ -142,6 +142,19 @@ TEST(MeshFile, AnObjFileWithoutItsMaterialsIsReadByAWayThroughItsParentFolder) {
     expect_tetrahedron(read_mesh({way, {1, 1, 1}, "", false}), 1.0 / 6);
 }
 
+/// A cube with a corner that is raised by half: its top is a saddle, or a roof along one diagonal.
+TEST(MeshFile, QuadranglesOfObjAreSplitFromTheirFirstCorner) {
+    const Folder folder;
+    const std::string corners = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\nv 1 0 1\nv 1 1 1.5\nv 0 1 1\n";
+    const std::string sides = "f 4 3 2 1\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n";
+    const auto volume = [&](const std::string& top) {
+        const auto read = read_mesh({folder.write("cube.obj", corners + sides + top), {1, 1, 1}, "", false});
+        return read.ok() ? volume_of(read.value().mesh) : 0;
+    };
+    EXPECT_NEAR(volume("f 5 6 7 8\n"), 1 + 1.0 / 6, 1e-6);
+    EXPECT_NEAR(volume("f 6 7 8 5\n"), 1 + 1.0 / 12, 1e-6);
+}
+
 TEST(MeshFile, ScaleMirrorsAndStretches) {
     const Folder folder;
     const std::string path = folder.write("a.stl", binary_stl());

@@ -68,6 +68,7 @@ class ActuatorReader {
         for (const Transmission& part : parts) {
             const auto& mimic = part.joint->axes.front().mimic;
             if ((mimic ? mimic->joint : part.joint->name) != leader->joint->name) return std::nullopt;
+            if (mimic && !mimic->is_linear()) return std::nullopt;  // no one gear
             gear += part.gear * (mimic ? mimic->multiplier : 1);
         }
         if (gear == 0) return std::nullopt;

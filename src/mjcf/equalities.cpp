@@ -126,14 +126,13 @@ void add_follower(const Attributes& source, Robots& robots, const Reading& readi
         return wrong("that are no hinges or slides of one robot has no effect", "Drive both joints alike.");
     double c[5] = {0, 1, 0, 0, 0};
     source.overlay("polycoef", c);
-    if (c[2] != 0 || c[3] != 0 || c[4] != 0)
-        wrong("is linear here: the higher numbers of polycoef have no effect", "Write two numbers.");
     const auto ref_of = [&](const Tree::JointPlace& place) {
         return robots.tree().bodies[place.body].joints[place.joint].ref;
     };
     MimicSpec mimic;
     mimic.joint = leader->name;
     mimic.multiplier = c[1], mimic.offset = ref_of(*first) + c[0], mimic.reference = ref_of(*second);
+    mimic.higher = {c[2], c[3], c[4]};
     follower->axes.front().mimic = mimic;
 }
 

@@ -221,6 +221,20 @@ TEST(LoadMjcf, EqualitiesAreLoopsAndFollowers) {
     EXPECT_NEAR(model.joints[1].axes[0].mimic->offset, .1 + 10 * kPi / 180, 1e-15);
 }
 
+TEST(LoadMjcf, AnEqualityOfJointsMayBeAPolynomial) {
+    const Loaded loaded = load_bodies(
+        "<body name='b'><joint name='a'/><geom size='.1'/><body name='c' pos='1 0 0'><joint name='d'/>"
+        "<geom size='.1'/></body></body>",
+        "<equality><joint joint1='d' joint2='a' polycoef='.1 2 .3 .4 .5'/></equality>");
+    ASSERT_TRUE(loaded.world) << loaded.text();
+    EXPECT_TRUE(loaded.diagnostics.items().empty()) << loaded.text();
+    const auto& mimic = loaded.model("b")->joints.at(1).axes.at(0).mimic;
+    ASSERT_TRUE(mimic);
+    EXPECT_FALSE(mimic->is_linear());
+    EXPECT_EQ(mimic->higher, (std::array<double, 3>{.3, .4, .5}));
+    EXPECT_EQ(mimic->multiplier, 2);
+}
+
 TEST(LoadMjcf, PairsTouchWhateverTheMasksSay) {
     const std::string geom = " size='.1' contype='0' conaffinity='0'/><freejoint/></body>";
     const Loaded loaded =

@@ -127,8 +127,8 @@ class StartClosure {
         }
         for (const CoordinateCoupling& c : type_.couplings) {
             const auto f = static_cast<std::size_t>(c.follower), l = static_cast<std::size_t>(c.leader);
-            double* const j = add_row(value(f) - c.multiplier * value(l) - c.offset, false);
-            j[base_ + f] = 1, j[base_ + l] -= c.multiplier;
+            double* const j = add_row(c.gap(value(f), value(l)), false);
+            j[base_ + f] = 1, j[base_ + l] -= c.slope(value(l));
         }
     }
 

@@ -97,8 +97,13 @@ void find_mimic(const ModelSpec& spec, const JointSpec& joint, std::size_t axis,
                           "Name another joint of the model and one of its axes.");
         return;
     }
-    found.push_back({joint.name, mimic.joint, static_cast<int>(axis), static_cast<int>(*led_by),
-                     mimic.multiplier, mimic.offset - mimic.multiplier * mimic.reference, joint.where});
+    CouplingSpec coupling;
+    coupling.follower = joint.name, coupling.leader = mimic.joint;
+    coupling.follower_axis = static_cast<int>(axis), coupling.leader_axis = static_cast<int>(*led_by);
+    coupling.multiplier = mimic.multiplier, coupling.where = joint.where;
+    coupling.offset = mimic.is_linear() ? mimic.offset - mimic.multiplier * mimic.reference : mimic.offset;
+    if (!mimic.is_linear()) coupling.reference = mimic.reference, coupling.higher = mimic.higher;
+    found.push_back(coupling);
 }
 
 /// Index in RobotType::dofs; nullopt where the joint has no coordinate in the tree.
@@ -226,6 +231,7 @@ void add_couplings(const std::vector<CouplingSpec>& couplings, RobotType& type, 
         coupling.joint = *follower;
         coupling.follower = *f, coupling.leader = *l;
         coupling.multiplier = spec.multiplier, coupling.offset = spec.offset;
+        coupling.reference = spec.reference, coupling.higher = spec.higher;
         type.couplings.push_back(coupling);
     }
 }

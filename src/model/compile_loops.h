@@ -2,6 +2,7 @@
 // configuration in which all of them hold. Internal to the model layer.
 #pragma once
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -26,6 +27,8 @@ struct CouplingSpec {
     std::string follower, leader;
     int follower_axis = 0, leader_axis = 0;
     double multiplier = 1, offset = 0;
+    double reference = 0;
+    std::array<double, 3> higher{};
     SourceLocation where;
 };
 

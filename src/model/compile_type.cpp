@@ -313,6 +313,7 @@ class PartBuilder {
     void finish() {
         RobotType& type = part_.type;
         check_joints_read(type, spec_.name + part_.suffix, diagnostics_);
+        report_powerless(type, spec_, diagnostics_);
         for (const Body& body : type.bodies) type.mass += body.mass;
         type.reach = reach_of(type);
         if (type.self_collide) type.self_pairs = self_pairs_of(type, &spec_);

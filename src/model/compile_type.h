@@ -76,6 +76,9 @@ SensorSpec with_chosen_shapes(SensorSpec sensor, const LinkSpec& link, std::span
 /// Reports sensors that read a joint of another part of their model, or one that is left without motion.
 void check_joints_read(const RobotType& type, const std::string& robot, Diagnostics& diagnostics);
 
+/// Warns of joints whose effort limit is 0, as exporters write it: orders to them are refused.
+void report_powerless(const RobotType& type, const ModelSpec& spec, Diagnostics& diagnostics);
+
 /// Radius of the sphere about the base origin that holds every shape in every pose.
 double reach_of(const RobotType& type);
 /// RobotType::reach_sphere, with slides within their limits: of a robot on a fixed base the sphere about its
@@ -85,6 +88,9 @@ ReachSphere reach_sphere_of(const RobotType& type);
 /// RobotType::self_pairs: shapes of bodies that no joint joins, without the pairs that `spec` excludes
 /// (nullptr: none). Needs RobotType::links.
 std::vector<std::pair<int, int>> self_pairs_of(const RobotType& type, const ModelSpec* spec);
+
+/// Whether the joint of a body without mass moves as what hangs on it: then it needs none.
+bool is_carried_by_what_follows(RobotType& type, std::size_t body);
 
 /// Fills Body::inverse_mass_linear, inverse_inertia_angular and Dof::inverse_inertia from the mass matrix at
 /// the zero pose.

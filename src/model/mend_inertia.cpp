@@ -1,6 +1,7 @@
 // Dummy frames of URDF, casters and sensor mounts often have no mass, or moments of inertia of zero. Welded
-// to a link with mass they do no harm. A body that moves must have some: a gram, and moments as of a ball of
-// one centimetre at least, too little to matter to what it hangs on.
+// to a link with mass they do no harm, and neither do they in a chain of sliders or hinges that ends at a
+// mass: the chain moves as what it carries. Any other body that moves must have some: a gram, and moments as
+// of a ball of one centimetre at least, too little to matter to what it hangs on.
 #include <algorithm>
 #include <cmath>
 
@@ -55,37 +56,61 @@ std::string three_digits(double value) {
 
 }  // namespace
 
+namespace {
+
+/// One of the links of a body: the first.
+struct Weighed {
+    Link& link;
+    const LinkSpec& source;
+};
+
+void give_mass(Body& body, const Weighed& weighed, const std::string& model, Diagnostics& diagnostics) {
+    Link& link = weighed.link;
+    link.mass = kSmallMass;
+    const double moment = 0.4 * kSmallMass * kSmallRadius * kSmallRadius;
+    link.inertia_C = Mat3::diagonal(moment, moment, moment);
+    add_mass(body, link);
+    diagnostics.warning(weighed.source.where, "massless",
+                        "link '" + link.name + "' of model '" + model +
+                            "' can move and has no mass; it gets 1 g and the inertia of a ball of 1 cm",
+                        "Write its <inertial>, or join it to its parent with a fixed joint.");
+}
+
+void give_moments(Body& body, const Weighed& weighed, const std::string& model, Diagnostics& diagnostics) {
+    const double moment = missing_moment(body.inertia_C, body.mass);
+    const Mat3 more = Mat3::diagonal(moment, moment, moment);
+    weighed.link.inertia_C = weighed.link.inertia_C + more;
+    body.inertia_C = body.inertia_C + more;
+    diagnostics.warning(weighed.source.where, "small-inertia",
+                        "link '" + weighed.link.name + "' of model '" + model +
+                            "' can turn and has no inertia to speak of about some axis; " +
+                            three_digits(moment) + " kg m^2 are added about each",
+                        "Write its moments of inertia about the centre of mass.");
+}
+
+}  // namespace
+
 void mend_inertia(RobotType& type, const ModelSpec& spec, const std::vector<std::size_t>& links,
                   Diagnostics& diagnostics) {
-    std::vector<char> seen(type.bodies.size(), 0);
-    for (std::size_t l = 0; l < type.links.size(); ++l) {
-        Link& link = type.links[l];
-        if (link.body < 0) continue;
-        Body& body = type.bodies[static_cast<std::size_t>(link.body)];
-        if (seen[static_cast<std::size_t>(link.body)]++ != 0) continue;
-        const LinkSpec& source = spec.links[links[l]];
-        if (source.between_joints) continue;
-        if (!(body.mass > 0)) {
-            link.mass = kSmallMass;
-            const double moment = 0.4 * kSmallMass * kSmallRadius * kSmallRadius;
-            link.inertia_C = Mat3::diagonal(moment, moment, moment);
-            add_mass(body, link);
-            diagnostics.warning(
-                source.where, "massless",
-                "link '" + link.name + "' of model '" + spec.name +
-                    "' can move and has no mass; it gets 1 g and the inertia of a ball of 1 cm",
-                "Write its <inertial>, or join it to its parent with a fixed joint.");
-        } else if (!resists_every_turn(body.inertia_C)) {
-            const double moment = missing_moment(body.inertia_C, body.mass);
-            const Mat3 more = Mat3::diagonal(moment, moment, moment);
-            link.inertia_C = link.inertia_C + more;
-            body.inertia_C = body.inertia_C + more;
-            diagnostics.warning(source.where, "small-inertia",
-                                "link '" + link.name + "' of model '" + spec.name +
-                                    "' can turn and has no inertia to speak of about some axis; " +
-                                    three_digits(moment) + " kg m^2 are added about each",
-                                "Write its moments of inertia about the centre of mass.");
-        }
+    std::vector<std::size_t> first(type.bodies.size(), type.links.size());
+    for (std::size_t l = type.links.size(); l-- > 0;)
+        if (type.links[l].body >= 0) first[static_cast<std::size_t>(type.links[l].body)] = l;
+    std::vector<std::size_t> massless;
+    for (std::size_t b = 0; b < type.bodies.size(); ++b) {
+        if (first[b] == type.links.size()) continue;
+        const Weighed weighed{type.links[first[b]], spec.links[links[first[b]]]};
+        if (weighed.source.between_joints) continue;
+        if (!(type.bodies[b].mass > 0))
+            massless.push_back(b);
+        else if (!resists_every_turn(type.bodies[b].inertia_C))
+            give_moments(type.bodies[b], weighed, spec.name, diagnostics);
+    }
+    // From the ends towards the base: what got a mass may carry what stands before it.
+    for (std::size_t k = massless.size(); k-- > 0;) {
+        const std::size_t b = massless[k];
+        if (!is_carried_by_what_follows(type, b))
+            give_mass(type.bodies[b], {type.links[first[b]], spec.links[links[first[b]]]}, spec.name,
+                      diagnostics);
     }
 }
 

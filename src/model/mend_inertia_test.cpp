@@ -32,6 +32,60 @@ TEST(MendInertia, AMasslessLinkThatMovesGetsAGramWithAWarning) {
     EXPECT_NEAR(c.type().bodies[1].inertia_C(0, 0), 4e-8, 1e-15);
 }
 
+/// A heavy link, then `links` without mass on joints of these kinds and axes, then a heavy one.
+ModelSpec chain(const std::vector<std::pair<JointSpecKind, Vec3>>& joints, double last_mass) {
+    ModelSpec model = row_of_three();
+    LinkSpec proto = model.links[0];
+    model.links.resize(1);
+    for (std::size_t k = 0; k < joints.size(); ++k) {
+        LinkSpec next = proto;
+        next.name = "l" + std::to_string(k);
+        const bool last = k + 1 == joints.size();
+        next.mass = last ? last_mass : 0;
+        next.inertia_C = last && last_mass > 0 ? Mat3::identity() : Mat3{};
+        next.X_ML = at_x(0.5);
+        next.collisions.clear();
+        const std::string parent = k == 0 ? model.links[0].name : model.links.back().name;
+        model.joints.push_back(
+            joint(joints[k].first, "j" + std::to_string(k), parent, next.name, at_x(0.5), joints[k].second));
+        model.links.push_back(next);
+    }
+    return model;
+}
+
+TEST(MendInertia, MasslessLinksThatMoveAsWhatTheyCarryGetNothing) {
+    constexpr auto kSlide = JointSpecKind::kPrismatic, kHinge = JointSpecKind::kRevolute;
+    const Vec3 x{1, 0, 0}, y{0, 1, 0}, z{0, 0, 1};
+    for (const auto& joints :
+         {std::vector<std::pair<JointSpecKind, Vec3>>{{kSlide, x}, {kSlide, y}, {kHinge, z}},
+          std::vector<std::pair<JointSpecKind, Vec3>>{{kHinge, z}, {kHinge, y}}}) {
+        const Compiled c = compile_one(chain(joints, 5));
+        ASSERT_NE(c.model, nullptr);
+        EXPECT_TRUE(c.diagnostics.items().empty());
+        EXPECT_EQ(c.type().mass, row_of_three().links[0].mass + 5);
+        for (const Dof& dof : c.type().dofs)
+            EXPECT_TRUE(dof.inverse_inertia > 0 && dof.inverse_inertia < 1e3) << dof.inverse_inertia;
+    }
+}
+
+TEST(MendInertia, MasslessLinksThatCouldMoveByThemselvesGetAGram) {
+    constexpr auto kSlide = JointSpecKind::kPrismatic, kHinge = JointSpecKind::kRevolute;
+    const Vec3 x{1, 0, 0}, y{0, 1, 0}, z{0, 0, 1};
+    using Joints = std::vector<std::pair<JointSpecKind, Vec3>>;
+    // Two slides or hinges along one line; three axes through a point, of which two fall into one line when
+    // the middle one has turned by 90 degrees.
+    for (const Joints& joints : {Joints{{kSlide, x}, {kSlide, x}}, Joints{{kHinge, z}, {kHinge, z}},
+                                 Joints{{kHinge, z}, {kHinge, x}, {kHinge, y}}}) {
+        const Compiled c = compile_one(chain(joints, 5));
+        ASSERT_NE(c.model, nullptr);
+        EXPECT_TRUE(has(c.diagnostics, "massless"));
+    }
+    const Compiled leaf = compile_one(chain({{kSlide, x}, {kSlide, y}}, 0));
+    ASSERT_NE(leaf.model, nullptr);
+    EXPECT_NEAR(leaf.type().mass, row_of_three().links[0].mass + 1e-3, 1e-12)
+        << "the last one carries the rest";
+}
+
 TEST(MendInertia, AnInertiaOfZeroIsThatOfASmallBallAtLeast) {
     const Compiled c = compile_one(pair_of(JointSpecKind::kRevolute, 2, {}));
     ASSERT_NE(c.model, nullptr);

@@ -17,12 +17,7 @@ class Mobility {
     explicit Mobility(RobotType& type) : type_(type), n_(static_cast<std::size_t>(type.nv)), row_(n_, 0.0) {}
 
     void run() {
-        std::vector<double> q(static_cast<std::size_t>(type_.nq), 0.0);
-        for (const Body& body : type_.bodies)
-            if (joint_traits(body.joint).is_quaternion) q[static_cast<std::size_t>(body.q_index)] = 1;
-        q[3] = 1;
-        place_tree(type_, q, placement_);
-        fill_mass_matrix();
+        place(0);
         if (!factor()) return;
         for (std::size_t b = 0; b < type_.bodies.size(); ++b) {
             Body& body = type_.bodies[b];
@@ -46,7 +41,39 @@ class Mobility {
         for (CoordinateCoupling& coupling : type_.couplings) measure(coupling);
     }
 
+    /// Whether the joint of a body meets, with the joints behind it free, a share of what it would meet with
+    /// them locked: in the poses with all joints at 0, 45 and 90 degrees, where axes fall into line.
+    bool carries(const Body& body) {
+        constexpr double kLeastShare = 1e-3;
+        for (const double angle : {0.0, kPi / 4, -kPi / 4, kPi / 2, -kPi / 2}) {
+            place(angle);
+            std::vector<double> locked;
+            for (int k = 0; k < body.nv; ++k) locked.push_back(diagonal(body.v_index + k));
+            factor();
+            for (int k = 0; k < body.nv; ++k)
+                if (!(diagonal(body.v_index + k) > kLeastShare * locked[static_cast<std::size_t>(k)]))
+                    return false;
+        }
+        return true;
+    }
+
   private:
+    double diagonal(int v) const { return m_[type_.paths.diagonal(static_cast<std::size_t>(v))]; }
+
+    /// The mass matrix with all joints at an angle (rad or m), or as near to it as their limits allow.
+    void place(double angle) {
+        std::vector<double> q(static_cast<std::size_t>(type_.nq), 0.0);
+        q[3] = 1;
+        for (const Body& body : type_.bodies) {
+            if (joint_traits(body.joint).is_quaternion) q[static_cast<std::size_t>(body.q_index)] = 1;
+            if (body.nv != 1 || angle == 0) continue;
+            const Dof& dof = type_.dofs[static_cast<std::size_t>(body.v_index - type_.base_nv())];
+            q[static_cast<std::size_t>(body.q_index)] = std::max(std::min(angle, dof.upper), dof.lower);
+        }
+        place_tree(type_, q, placement_);
+        fill_mass_matrix();
+    }
+
     /// A body on a hub at its centre of mass (a fan, a turntable) is pushed at its surface all the same: what
     /// turning gives there then stands for the mobility of the centre, which is none.
     static double surface_mobility(const Body& body, double linear, double angular) {
@@ -84,7 +111,7 @@ class Mobility {
     void measure(CoordinateCoupling& coupling) {
         const auto follower = static_cast<std::size_t>(coupling.follower + type_.base_nv());
         const auto leader = static_cast<std::size_t>(coupling.leader + type_.base_nv());
-        row_[follower] = 1, row_[leader] = -coupling.multiplier;
+        row_[follower] = 1, row_[leader] = -coupling.slope(0);
         coupling.inverse_inertia = take_inverse_norm(std::max(follower, leader));
     }
 
@@ -155,6 +182,10 @@ class Mobility {
 
 void compute_mobility(RobotType& type) {
     Mobility(type).run();
+}
+
+bool is_carried_by_what_follows(RobotType& type, std::size_t body) {
+    return Mobility(type).carries(type.bodies[body]);
 }
 
 }  // namespace roboss

@@ -75,6 +75,9 @@ void add_loop(Hash& hash, const LoopJoint& loop) {
 void add_coupling(Hash& hash, const CoordinateCoupling& coupling) {
     add(hash, coupling.follower), add(hash, coupling.leader);
     for (double x : {coupling.multiplier, coupling.offset, coupling.inverse_inertia}) hash.add(x);
+    if (!coupling.is_curved()) return;
+    hash.add(std::string_view("curved")), hash.add(coupling.reference);
+    for (double x : coupling.higher) hash.add(x);
 }
 
 void add_joint(Hash& hash, const Joint& joint, Cover cover) {

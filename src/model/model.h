@@ -8,6 +8,7 @@
 // world) but no base velocity.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <limits>
 #include <memory>
@@ -128,7 +129,8 @@ struct LoopJoint {
         inverse_inertia = 0;  ///< 1/(kg m^2): the same of the rotation
 };
 
-/// Gearbox or mimic: follower = multiplier * leader + offset, between coordinates of two degrees of freedom.
+/// Gearbox or mimic: follower = multiplier * d + higher[0] d^2 + higher[1] d^3 + higher[2] d^4 + offset,
+/// where d = leader - reference, between coordinates of two degrees of freedom.
 struct CoordinateCoupling {
     JointId joint;               ///< of the follower
     int follower = 0,            ///< in RobotType::dofs
@@ -136,6 +138,30 @@ struct CoordinateCoupling {
     double multiplier = 1,       ///< leader's unit to follower's unit
         offset = 0;              ///< rad or m
     double inverse_inertia = 0;  ///< 1/(kg m^2) or 1/kg, mobility of the difference at the zero pose
+    double reference = 0;        ///< rad or m, of the leader; of a linear coupling it is part of the offset
+    std::array<double, 3> higher{};  ///< of the powers 2 to 4; zeros: linear
+
+    /// Whether the follower does not follow in proportion.
+    bool is_curved() const { return higher[0] != 0 || higher[1] != 0 || higher[2] != 0; }
+    /// How far the follower stands from where it should; the multiplications in this order.
+    double gap(double follower_at, double leader_at) const {
+        if (!is_curved()) return follower_at - multiplier * leader_at - offset;
+        const double d = leader_at - reference;
+        return follower_at - (((higher[2] * d + higher[1]) * d + higher[0]) * d + multiplier) * d - offset;
+    }
+    /// Where the follower should stand.
+    double follow(double leader_at) const { return -gap(0, leader_at); }
+    /// How fast the follower moves with the leader there.
+    double slope(double leader_at) const {
+        if (!is_curved()) return multiplier;
+        const double d = leader_at - reference;
+        return ((4 * higher[2] * d + 3 * higher[1]) * d + 2 * higher[0]) * d + multiplier;
+    }
+    /// How the slope changes with the leader.
+    double bend(double leader_at) const {
+        const double d = leader_at - reference;
+        return (12 * higher[2] * d + 6 * higher[1]) * d + 2 * higher[0];
+    }
 };
 
 /// Friction, bounce and softness of one shape. How two of them combine: physics/contact/surface_pair.h.

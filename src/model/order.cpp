@@ -129,6 +129,12 @@ struct Check {
         if (!std::isfinite(a.target) || std::isnan(a.max_effort))
             return Error{"order for joint '" + joint.name + "' of " + called(model, order) + " is not finite",
                          kFiniteRemedy, "not-finite"};
+        if (a.mode != MotorMode::kPassive && type.dof(joint, a.axis).max_effort == 0)
+            return Error{
+                "order for joint '" + joint.name + "' of " + called(model, order) +
+                    ": its effort limit is 0, so no motor can move it",
+                "write the greatest effort of its motor (effort=\"...\" of <limit> in URDF), or none",
+                "no-effort"};
         return check_target("order for joint '" + joint.name + "' of " + called(model, order), a);
     }
     Result<> operator()(const SetJointState& a) const {

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <limits>
@@ -51,6 +52,26 @@ TEST_F(CheckOrder, AcceptsWhatMakesSense) {
     EXPECT_EQ(refusal(kCar, SetJoint{joint(kCar, "wheel_0"), 0, MotorMode::kVelocity, 5, -1}), "");
     EXPECT_EQ(refusal(kTree, SetJoint{joint(kTree, "shoulder"), 1, MotorMode::kPosition, 0.5, 2}), "");
     EXPECT_EQ(refusal(kTree, SetJoint{joint(kTree, "ball"), 2, MotorMode::kEffort, 0.5, 2}), "");
+}
+
+TEST_F(CheckOrder, RefusesOrdersToAJointWithoutEffortWithTheReason) {
+    World world = empty_world(1e-3);
+    ModelSpec idle = arm();
+    const auto moves = [](const JointSpec& joint) { return !joint.axes.empty(); };
+    JointSpec& joint = *std::ranges::find_if(idle.joints, moves);
+    joint.axes[0].max_effort = 0, joint.axes[0].max_velocity = 0;
+    place(world, idle, "idle");
+    Diagnostics diagnostics;
+    model_ = compile(world, {}, diagnostics);
+    ASSERT_NE(model_, nullptr);
+    ASSERT_EQ(diagnostics.items().size(), 1u);
+    EXPECT_EQ(diagnostics.items()[0].code, "no-effort");
+    EXPECT_NE(diagnostics.items()[0].message.find("'" + joint.name + "'"), std::string::npos);
+    const RobotId robot(std::size_t{0});
+    const JointId id = *model_->type_of(robot).find_joint(joint.name);
+    for (const MotorMode mode : {MotorMode::kVelocity, MotorMode::kPosition, MotorMode::kEffort})
+        expect_refused(robot, SetJoint{id, 0, mode, 0.1, -1}, {joint.name, "effort limit is 0"});
+    EXPECT_EQ(refusal(robot, SetJoint{id, 0, MotorMode::kPassive, 0, -1}), "");
 }
 
 TEST_F(CheckOrder, TakesStatesOfJointsWithOneNumberForEachAxis) {

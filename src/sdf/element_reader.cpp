@@ -19,6 +19,14 @@ std::optional<double> number_at_start(std::string_view text) {
     return parse_number(text.substr(0, second));
 }
 
+std::string with_decimal_point(std::string_view word) {
+    std::string text(word);
+    const std::size_t comma = text.find(',');
+    if (comma == text.npos || comma == 0 || comma + 1 == text.size()) return {};
+    text[comma] = '.';
+    return parse_number(text) ? text : std::string();
+}
+
 namespace {
 
 /// "0x0f": libsdformat takes whole numbers so.
@@ -38,6 +46,21 @@ void ElementReader::report_rest(const Element& element, std::string_view word) c
                          "<" + std::string(element.node.name()) + "> is '" + std::string(word) +
                              "'; what follows the number is ignored",
                          "Write the number alone.");
+}
+
+std::optional<double> ElementReader::parsed(const Element& element, std::string_view word) const {
+    if (const auto value = parse_number(word)) return value;
+    if (const auto value = hexadecimal(word)) return value;
+    if (const std::string point = with_decimal_point(word); !point.empty()) {
+        diagnostics_.warning(element.where(), "decimal-comma",
+                             "<" + std::string(element.node.name()) + "> has '" + std::string(word) +
+                                 "'; it is read as " + point,
+                             "Write a decimal point.");
+        return parse_number(point);
+    }
+    const auto value = number_at_start(word);
+    if (value) report_rest(element, word);
+    return value;
 }
 
 void ElementReader::bad_value(const Element& element, const std::string& expected) const {
@@ -64,9 +87,7 @@ bool ElementReader::numbers(const Element& element, std::span<double> values, Fi
     if (words.size() != values.size() && !has_more) return bad_value(element, expected), false;
     std::vector<double> parsed;
     for (const auto word : std::span(words).first(values.size())) {
-        auto value = parse_number(word);
-        if (!value) value = hexadecimal(word);
-        if (!value && (value = number_at_start(word))) report_rest(element, word);
+        const auto value = this->parsed(element, word);
         const bool good =
             value && !std::isnan(*value) && (finite == Finite::kInfinityAllowed || std::isfinite(*value));
         if (!good) return bad_value(element, expected), false;

@@ -21,6 +21,9 @@ enum class Finite { kRequired, kInfinityAllowed };
 /// The number that a text begins with, whatever follows it; nullopt: none.
 std::optional<double> number_at_start(std::string_view text);
 
+/// "0,5" with a point, as languages differ in it; empty: the word is no such number.
+std::string with_decimal_point(std::string_view word);
+
 class ElementReader {
   public:
     explicit ElementReader(Diagnostics& diagnostics) : diagnostics_(diagnostics) {}
@@ -48,6 +51,8 @@ class ElementReader {
     /// Fills all of `values` from the element's text, or reports and leaves them as they are.
     bool numbers(const Element& element, std::span<double> values, Finite finite) const;
     void report_rest(const Element& element, std::string_view word) const;
+    /// nullopt: not even the beginning of the word is a number.
+    std::optional<double> parsed(const Element& element, std::string_view word) const;
     void bad_value(const Element& element, const std::string& expected) const;
 
     Diagnostics& diagnostics_;

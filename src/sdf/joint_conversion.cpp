@@ -144,6 +144,26 @@ Vec3 direction_of(const sdf::JointAxis* axis) {
     return length > 1e-12 && std::isfinite(length) ? direction / length : Vec3{0, 0, 1};
 }
 
+bool is_locked(const AxisSpec& spec) {
+    return spec.has_limits() && !(spec.lower < spec.upper);
+}
+
+/// An axis without direction. Gazebo minds it only where the joint could move along it.
+void check_direction(const sdf::Joint& joint, const Element& axis, bool moves, const Import& import) {
+    const Element xyz = axis.child("xyz");
+    const auto words = words_of(std::string_view(xyz.node.text().get()));
+    if (words.size() != 3 ||
+        std::ranges::any_of(words, [](std::string_view word) { return parse_number(word) != 0.0; }))
+        return;
+    const std::string what = "the axis of joint '" + joint.Name() + "' is 0 0 0";
+    if (moves)
+        import.diagnostics().error(xyz.where(), "zero-axis", what + ": it has no direction to move in",
+                                   "Write a direction, for instance 0 0 1, or type=\"fixed\".");
+    else
+        import.diagnostics().warning(xyz.where(), "zero-axis", what + "; it does not matter, it cannot move",
+                                     "Write type=\"fixed\" and no <axis>.");
+}
+
 /// Axes of <roboss:joint> have no <xyz>: they are at right angles to <axis> and to each other, right-handed.
 /// The first is the coordinate axis of the joint frame that follows <axis> (x follows z), or lies as near to
 /// it as it can.
@@ -186,6 +206,7 @@ AxisSpec read_axis(const sdf::Joint& joint, const Element& source, const std::st
     read_motor(source.child("roboss:motor"), import.reader, spec);
     read_motor(axis.child("roboss:motor"), import.reader, spec);
     spec.mimic = read_mimic(axis.child("mimic"), scope, import.reader);
+    if (axis && !of_extension) check_direction(joint, axis, type.endless || !is_locked(spec), import);
     if (type.endless)
         drop_limits(joint, axis.child("limit"), spec, import);
     else
@@ -223,10 +244,13 @@ void report_unused_axis(JointSpec& spec, const Element& source, const char* name
                                  "Use a joint with that axis, or several hinges in a row.");
 }
 
-void report_unused(JointSpec& spec, const Element& source, const Import& import) {
+void report_unused(const sdf::Joint& joint, JointSpec& spec, const Element& source, const Import& import) {
     const JointType& type = joint_type(spec.kind);
-    for (const char* name : {"axis", "axis2"})
-        if (!type.find_axis(name)) report_unused_axis(spec, source, name, import);
+    for (const char* name : {"axis", "axis2"}) {
+        if (type.find_axis(name)) continue;
+        report_unused_axis(spec, source, name, import);
+        check_direction(joint, source.child(name), false, import);
+    }
     if (const Element motor = source.child("roboss:motor"); motor && type.axes.empty()) {
         import.diagnostics().warning(motor.where(), "unused-motor",
                                      "joint '" + spec.name + "' of type '" +
@@ -286,7 +310,8 @@ std::optional<JointSpec> convert_joint(const sdf::Joint& joint, const Element& s
     if (!kind) return std::nullopt;
     const JointType& type = joint_type(*kind);
     JointSpec spec;
-    spec.name = scope + joint.Name();
+    const bool renamed = static_cast<bool>(source.node.attribute(kJointName));
+    spec.name = scope + (renamed ? name_of_joint(source.node) : joint.Name());
     spec.kind = *kind;
     spec.where = source.where();
     spec.X_MJ = X_MJ;
@@ -300,7 +325,7 @@ std::optional<JointSpec> convert_joint(const sdf::Joint& joint, const Element& s
     if (type.count(JointKind::kRevolute) == 2) turn_parallel_axis(spec, import);
     if (type.count(JointKind::kScrew) > 0) spec.screw_pitch = screw_pitch(source, import);
     if (type.couples && !read_gearbox(source, scope, import, spec)) return std::nullopt;
-    report_unused(spec, source, import);
+    report_unused(joint, spec, source, import);
     return spec;
 }
 

@@ -178,6 +178,8 @@ class WorldLoader {
             if (!spoilt && distinct.prototype)
                 spoilt = !state.apply(instance, result.prototypes[*distinct.prototype], diagnostics_);
             if (!spoilt && distinct.prototype) check.check(instance, diagnostics_);
+            if (!spoilt && distinct.prototype)
+                instance.prototype = state.scaled(instance.name, instance.prototype, result);
             if (diagnostics_.leave_out_since(first) || spoilt) {
                 left_out[distinct_of_[i]].push_back(&placement);
             } else if (distinct.prototype) {

@@ -197,7 +197,7 @@ class ModelConverter {
             return;
         }
         const auto collision_pose = [&](const Element& collision) {
-            return pose_of(collision, link.CollisionByName(collision.name()), link);
+            return pose_of(collision, link.CollisionByName(name_among_siblings(collision)), link);
         };
         if (!spec_.is_static && !spec_.kinematic) convert_inertial(source, collision_pose, import_, spec);
         convert_link_flags(source, spec);
@@ -249,25 +249,35 @@ class ModelConverter {
     /// A <collision>, <visual>, <light> or sensor of a link.
     void convert_part(const Element& part, const sdf::Link& link, const Scope& scope, LinkSpec& spec) {
         const char* tag = part.node.name();
+        const std::string name = name_among_siblings(part);
         if (std::strcmp(tag, "collision") == 0) {
-            const auto* known = link.CollisionByName(part.name());
+            report_repeated(part, name);
+            const auto* known = link.CollisionByName(name);
             if (auto collision = convert_collision(part, pose_of(part, known, link), import_)) {
                 spec.collisions.push_back(std::move(*collision));
             }
         } else if (std::strcmp(tag, "visual") == 0) {
             for (VisualSpec& visual :
-                 convert_visual(part, pose_of(part, link.VisualByName(part.name()), link), import_))
+                 convert_visual(part, pose_of(part, link.VisualByName(name), link), import_))
                 spec.visuals.push_back(std::move(visual));
         } else if (std::strcmp(tag, "light") == 0) {
-            if (auto light = convert_light(part, pose_of(part, link.LightByName(part.name()), link), import_))
+            if (auto light = convert_light(part, pose_of(part, link.LightByName(name), link), import_))
                 spec.lights.push_back(std::move(*light));
         } else if (std::strcmp(tag, "sensor") == 0 || std::strcmp(tag, "roboss:sensor") == 0 ||
                    std::strcmp(tag, "roboss:radio") == 0) {
-            const Pose X_LS = pose_of(part, link.SensorByName(part.name()), link);
+            const Pose X_LS = pose_of(part, link.SensorByName(name), link);
             std::vector<SensorSpec> cameras = convert_multicamera(part, X_LS, scope.prefix, import_);
             if (cameras.empty()) cameras.push_back(convert_sensor(part, X_LS, scope.prefix, import_));
             std::ranges::move(cameras, std::back_inserter(spec.sensors));
         }
+    }
+
+    void report_repeated(const Element& collision, const std::string& other) {
+        if (other == collision.name()) return;
+        import_.diagnostics().warning(
+            collision.where(), "repeated-name",
+            "a link has several collisions named '" + collision.name() + "': all of them count",
+            "Give each a name of its own.");
     }
 
     /// Ours to read unless it is relative to another frame; then libsdformat knows.
@@ -286,6 +296,7 @@ class ModelConverter {
         auto spec =
             convert_joint(joint, source, scope.X_MS * resolved(joint, "__model__"), scope.prefix, import_);
         if (!spec) return;
+        if (source.node.attribute(kJointName)) spec_.shared_names = true;
         for (const auto node : source.node.children("sensor"))
             convert_joint_sensor({source.source, node}, *spec, scope);
         spec_.joints.push_back(std::move(*spec));

@@ -61,7 +61,7 @@ void use_model(const Element& plugin, const std::string& scope, OnboardParameter
     std::vector<std::string> joints;
     for (const auto joint : plugin.node.parent().children("joint"))
         if (std::string_view(joint.attribute("type").value()) != "fixed")
-            joints.push_back(scope + joint.attribute("name").value());
+            joints.push_back(scope + name_of_joint(joint));
     std::visit(
         [&](auto& spec) {
             if constexpr (requires { spec.use_model(joints); }) spec.use_model(joints);

@@ -1,12 +1,14 @@
 // Looks for resources in the folders of --path and of the environment variables that Gazebo and ROS use.
 #include "sdf/resource_paths.h"
 
+#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
-#include "xml/source_file.h"
+#include <sstream>
 
 #include "sdf/fuel_cache.h"
 #include "sdf/source_file.h"
+#include "xml/source_file.h"
 
 namespace roboss::sdf_import {
 namespace {
@@ -111,6 +113,49 @@ std::string package_name(const fs::path& folder) {
     return package.document_element().child("name").text().get();
 }
 
+/// The folders that the package.xml in `folder` exports to Gazebo: <gazebo_ros gazebo_model_path="..."
+/// gazebo_media_path="..."/>, with colons between them and ${prefix} for `folder`.
+std::vector<fs::path> exported_folders(const fs::path& folder) {
+    pugi::xml_document package;
+    std::vector<fs::path> result;
+    if (!package.load_file((folder / "package.xml").c_str())) return result;
+    for (const auto gazebo : package.document_element().child("export").children())
+        for (const char* name : {"gazebo_model_path", "gazebo_media_path"}) {
+            std::istringstream paths(gazebo.attribute(name).value());
+            for (std::string path; std::getline(paths, path, ':');) {
+                const std::string prefix = "${prefix}";
+                if (const std::size_t at = path.find(prefix); at != path.npos)
+                    path.replace(at, prefix.size(), folder.string());
+                if (!path.empty()) result.push_back(folder / path);
+            }
+        }
+    return result;
+}
+
+/// In the folders that a package exports, or one that lies in `folder`.
+void try_exports(const fs::path& folder, const fs::path& path, Resolved& result) {
+    const auto try_package = [&](const fs::path& package) {
+        for (const fs::path& exported : exported_folders(package)) try_quietly(exported / path, result);
+    };
+    if (result.path) return;
+    try_package(folder);
+    std::error_code error;
+    std::vector<fs::path> inner;
+    for (fs::directory_iterator at(folder, error), end; !error && at != end; at.increment(error))
+        if (is_there(at->path() / "package.xml")) inner.push_back(at->path());
+    std::ranges::sort(inner);
+    for (const fs::path& package : inner) try_package(package);
+}
+
+/// Packages around the file, and beside the one that it is in.
+void try_exports_above(const std::string& base, const fs::path& path, Resolved& result) {
+    bool in_package = false;
+    for (const fs::path& folder : folders_above(base)) {
+        if (in_package || is_there(folder / "package.xml")) try_exports(folder, path, result);
+        in_package |= is_there(folder / "package.xml");
+    }
+}
+
 /// Where a model of a checked-out project names its neighbours, or a robot its own package: in a folder above
 /// the file, in `models` of one, or in the ROS package around it whatever its folder is called.
 void try_above(const std::string& base, const fs::path& path, Resolved& result) {
@@ -188,6 +233,10 @@ void ResourcePaths::look(const fs::path& path, const std::string& base, bool has
         if (own.filename() == *path.begin()) try_path(own.parent_path() / path, result);
     }
     if (has_scheme) try_above(base, path, result);
+    if (has_scheme) {
+        try_exports_above(base, path, result);
+        for (const std::string& folder : folders_) try_exports(folder, path, result);
+    }
     try_any_case(base, path, result);
     for (const std::string& folder : folders_) try_any_case(folder, path, result);
     if (has_scheme)

@@ -26,12 +26,18 @@ std::optional<Pose> pose_in_world(const Element& parent, const Import& import) {
     return import.reader.pose(pose);
 }
 
-void report_scale(const Element& model, const Import& import) {
-    const Vec3 scale = import.reader.vector(model, "scale", {1, 1, 1});
-    if (scale == Vec3{1, 1, 1}) return;
-    import.diagnostics().warning(model.child("scale").where(), "state-scale",
-                                 "<scale> of '" + model.name() + "' in the <state> has no effect",
-                                 "Write the sizes into the model.");
+/// Of a model of a state; empty: 1 1 1.
+std::optional<Vec3> read_scale(const Element& model, const Import& import) {
+    const Element scale = model.child("scale");
+    if (!scale) return std::nullopt;
+    const Vec3 factors = import.reader.vector(model, "scale", {1, 1, 1});
+    if (factors.x > 0 && factors.y > 0 && factors.z > 0) return factors;
+    import.diagnostics().warning(scale.where(), "state-scale",
+                                 "<scale> of '" + model.name() +
+                                     "' in the <state> has no effect: it is not "
+                                     "positive along all axes",
+                                 "Write three numbers above 0.");
+    return std::nullopt;
 }
 
 }  // namespace
@@ -62,7 +68,7 @@ SavedState::SavedState(const Element& world, const Import& import) : state_(worl
 void SavedState::read_model(const Element& element, const std::string& prefix, const Import& import,
                             SavedModel& model) {
     report_unknown_children(element, kModel, import.diagnostics());
-    report_scale(element, import);
+    if (const auto scale = read_scale(element, import)) model.scale.emplace_back(prefix, *scale);
     read_links(element, prefix, import, model);
     read_axes(element, prefix, import, model);
     for (const auto node : element.node.children("model")) {
@@ -129,6 +135,21 @@ bool SavedState::apply(ModelInstance& instance, const ModelSpec& spec, Diagnosti
                                  "' does not have");
     }
     return true;
+}
+
+std::size_t SavedState::scaled(const std::string& name, std::size_t prototype, World& world) {
+    const auto found = models_.find(name);
+    if (found == models_.end()) return prototype;
+    const ModelScale& scale = found->second.scale;
+    if (std::ranges::all_of(scale, [](const auto& entry) { return entry.second == Vec3{1, 1, 1}; }))
+        return prototype;
+    for (const Scaled& known : scaled_)
+        if (known.from == prototype && known.scale == scale) return known.to;
+    ModelSpec model = world.prototypes[prototype];
+    scale_shapes(scale, model);
+    world.prototypes.push_back(std::move(model));
+    scaled_.push_back({prototype, world.prototypes.size() - 1, scale});
+    return scaled_.back().to;
 }
 
 void SavedState::report_unused(Diagnostics& diagnostics) const {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "sdf/placements.h"
+#include "sdf/scaled_model.h"
 
 namespace roboss::sdf_import {
 
@@ -21,6 +22,9 @@ class SavedState {
     /// Puts the instance where its model is in the state; false: what the state says of it is wrong
     /// (reported).
     bool apply(ModelInstance& instance, const ModelSpec& spec, Diagnostics& diagnostics);
+    /// The prototype of the model with this name: `prototype`, or one with the sizes that the state gives it,
+    /// which is appended to those of the world.
+    std::size_t scaled(const std::string& name, std::size_t prototype, World& world);
     /// Notes models of the state that the world does not have.
     void report_unused(Diagnostics& diagnostics) const;
 
@@ -30,6 +34,7 @@ class SavedState {
         std::optional<Pose> X_WM;
         std::vector<LinkStart> links;
         std::vector<AxisStart> axes;
+        ModelScale scale;
         bool is_wrong = false;
         bool is_used = false;
     };
@@ -42,6 +47,11 @@ class SavedState {
 
     Element state_;
     std::unordered_map<std::string, SavedModel> models_;
+    struct Scaled {
+        std::size_t from = 0, to = 0;  // in World::prototypes
+        ModelScale scale;
+    };
+    std::vector<Scaled> scaled_;
 };
 
 }  // namespace roboss::sdf_import

@@ -111,8 +111,10 @@ class Writer {
         out_.body += std::string("\n<") + e.node.name();
         out_.lines.push_back(e);
         for (const auto attribute : e.node.attributes()) {
-            if (std::strchr(attribute.name(), ':') == nullptr &&
-                attribute_known_to_libsdformat(e, attribute.name())) {
+            if (std::strcmp(attribute.name(), "name") == 0) {
+                out_.body += " name=\"" + escaped(name_among_siblings(e)) + "\"";
+            } else if (std::strchr(attribute.name(), ':') == nullptr &&
+                       attribute_known_to_libsdformat(e, attribute.name())) {
                 write_attribute(attribute);
             }
         }
@@ -124,7 +126,7 @@ class Writer {
             if (child.type() == pugi::node_element) {
                 element({e.source, child}, e.node.name());
             } else if (child.type() == pugi::node_pcdata || child.type() == pugi::node_cdata) {
-                out_.body += masked_ > 0 ? masked(e, child.value()) : escaped(child.value());
+                out_.body += masked_ > 0 ? masked(e, child.value()) : mended(e, child.value());
             }
         }
     }
@@ -135,7 +137,7 @@ class Writer {
         if (relative_to(pose).empty()) return;
         const bool visual = std::strcmp(e.node.name(), "visual") == 0,
                    light = std::strcmp(e.node.name(), "light") == 0;
-        out_.body += std::string("\n<") + e.node.name() + " name=\"" + escaped(e.name()) +
+        out_.body += std::string("\n<") + e.node.name() + " name=\"" + escaped(name_among_siblings(e)) +
                      (visual  ? "\">"
                       : light ? "\" type=\"point\">"
                               : "\" type=\"contact\">");
@@ -177,6 +179,23 @@ class Writer {
         return result;
     }
 
+    /// Numbers that libsdformat would refuse, which the importer reports where it reads them: decimal commas,
+    /// and an axis without direction.
+    static std::string mended(const Element& e, const std::string& text) {
+        const bool axis = is_any(e.node.name(), {"xyz"});
+        if (!axis && !is_any(e.node.name(), {"pose"})) return escaped(text);
+        const auto words = words_of(text);
+        const bool is_zero =
+            axis && std::ranges::all_of(words, [](auto word) { return parse_number(word) == 0.0; });
+        if (is_zero) return "0 0 1";
+        std::string result;
+        for (const auto word : words) {
+            const std::string point = with_decimal_point(word);
+            result += (result.empty() ? "" : " ") + (point.empty() ? escaped(std::string(word)) : point);
+        }
+        return result;
+    }
+
     static std::string escaped(const std::string& text) {
         std::string result;
         for (const char c : text) {
@@ -209,6 +228,23 @@ class Writer {
 };
 
 }  // namespace
+
+std::string name_among_siblings(const Element& part) {
+    const std::string name = part.name();
+    if (!is_any(part.node.name(), {"collision", "visual", "sensor", "light"})) return name;
+    const auto has_name = [&](pugi::xml_node node, const std::string& wanted) {
+        return std::strcmp(node.name(), part.node.name()) == 0 && wanted == node.attribute("name").value();
+    };
+    int before = 0;
+    for (auto node = part.node.previous_sibling(); node; node = node.previous_sibling())
+        before += has_name(node, name) ? 1 : 0;
+    if (before == 0) return name;
+    std::string other = name + "_" + std::to_string(before);
+    while (std::ranges::any_of(part.node.parent().children(),
+                               [&](pugi::xml_node node) { return has_name(node, other); }))
+        other += "_";
+    return other;
+}
 
 Skeleton make_skeleton(const Element& model, TopPose pose, SkeletonIncludes& includes) {
     Skeleton skeleton;

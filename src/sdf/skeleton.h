@@ -31,6 +31,9 @@ class SkeletonIncludes {
 /// so that equal models have equal skeletons), kept for a model that is included in a model.
 enum class TopPose { kLeftOut, kKept };
 
+/// The name that a part of a link has for libsdformat, which refuses two of one kind with one name.
+std::string name_among_siblings(const Element& part);
+
 Skeleton make_skeleton(const Element& model, TopPose pose, SkeletonIncludes& includes);
 
 }  // namespace roboss::sdf_import

@@ -21,6 +21,11 @@ int version_of(const SourceFile& file) {
     return parse_version(file.root().attribute("version").value());
 }
 
+std::string name_of_joint(pugi::xml_node joint) {
+    const auto own = joint.attribute(kJointName);
+    return (own ? own : joint.attribute("name")).value();
+}
+
 std::unique_ptr<SourceFile> read_source(const std::string& path, Diagnostics& diagnostics) {
     auto file = SourceFile::read(path, diagnostics);
     if (file) make_models_of_actors(file->root());

@@ -19,6 +19,11 @@ int parse_version(const std::string& text);
 /// The version that the root element names.
 int version_of(const SourceFile& file);
 
+/// Attribute of a <joint> of a URDF that has the name of a link: that name, which SDF gives to one of them
+/// only.
+inline constexpr const char* kJointName = "roboss:name";
+std::string name_of_joint(pugi::xml_node joint);
+
 /// Reads a file that a world includes; one that is malformed or missing gives an error and nullptr.
 std::unique_ptr<SourceFile> read_source(const std::string& path, Diagnostics& diagnostics);
 

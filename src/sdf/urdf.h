@@ -1,5 +1,4 @@
-// URDF comes in through libsdformat, which turns it into SDFormat; from there it takes the same way as every
-// SDF file.
+// URDF becomes SDF, element by element; from there it takes the same way as every SDF file.
 #pragma once
 
 #include <memory>
@@ -8,8 +7,8 @@
 
 namespace roboss::sdf_import {
 
-/// The SDF of a URDF file; its lines are those of the URDF elements of the same name. nullptr with an error
-/// if it is none.
+/// The SDF of a URDF file; its lines are those of the URDF's elements. `urdf` is repaired in place. nullptr
+/// with an error if it is none.
 std::unique_ptr<SourceFile> urdf_to_sdf(const SourceFile& urdf, Diagnostics& diagnostics);
 
 }  // namespace roboss::sdf_import

@@ -13,7 +13,7 @@ namespace roboss {
 namespace wire {
 namespace {
 
-constexpr std::uint32_t kModelVersion = 10;
+constexpr std::uint32_t kModelVersion = 11;
 
 /// A Writer and a Reader that know the shared hulls and surfaces, to which shapes point.
 struct ModelWriter : Writer {
@@ -114,7 +114,7 @@ template <class A> void field(A& a, Of<A, LoopJoint>& m) {
            m.inverse_inertia);
 }
 template <class A> void field(A& a, Of<A, CoordinateCoupling>& m) {
-    fields(a, m.joint, m.follower, m.leader, m.multiplier, m.offset, m.inverse_inertia);
+    fields(a, m.joint, m.follower, m.leader, m.multiplier, m.offset, m.inverse_inertia, m.reference, m.higher[0], m.higher[1], m.higher[2]);
 }
 template <class A> void field(A& a, Of<A, Material>& m) {
     fields(a, m.mu, m.mu2, m.direction_S, m.restitution, m.bounce_threshold, m.torsional_mu, m.patch_radius, m.surface_radius, m.rolling,
@@ -179,7 +179,7 @@ template <class A> void field(A& a, Of<A, Model>& m) {
 [[maybe_unused]] void know_fields(const Link& m) { [[maybe_unused]] const auto& [f0, f1, f2, f3, f4, f5, f6, f7, f8] = m; }
 [[maybe_unused]] void know_fields(const Joint& m) { [[maybe_unused]] const auto& [f0, f1, f2, f3, f4, f5, f6, f7, f8] = m; }
 [[maybe_unused]] void know_fields(const LoopJoint& m) { [[maybe_unused]] const auto& [f0, f1, f2, f3, f4, f5, f6, f7, f8, f9, f10, f11, f12, f13, f14] = m; }
-[[maybe_unused]] void know_fields(const CoordinateCoupling& m) { [[maybe_unused]] const auto& [f0, f1, f2, f3, f4, f5] = m; }
+[[maybe_unused]] void know_fields(const CoordinateCoupling& m) { [[maybe_unused]] const auto& [f0, f1, f2, f3, f4, f5, f6, f7] = m; }
 [[maybe_unused]] void know_fields(const Material& m) { [[maybe_unused]] const auto& [f0, f1, f2, f3, f4, f5, f6, f7, f8, f9, f10, f11, f12, f13, f14, f15] = m; }
 [[maybe_unused]] void know_fields(const Shape& m) { [[maybe_unused]] const auto& [f0, f1, f2, f3, f4, f5] = m; }
 [[maybe_unused]] void know_fields(const BodyShape& m) { [[maybe_unused]] const auto& [f0, f1, f2, f3, f4, f5, f6, f7] = m; }

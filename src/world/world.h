@@ -187,7 +187,8 @@ struct LinkSpec {
 /// The types and what each means: world/joint_type.h. Zero is a fixed joint.
 enum class JointSpecKind : int;
 
-/// A joint axis that follows another: position = multiplier * (leader's position - reference) + offset.
+/// A joint axis that follows another: position = multiplier * d + higher[0] d^2 + higher[1] d^3 +
+/// higher[2] d^4 + offset, where d = leader's position - reference.
 struct MimicSpec {
     std::string joint;      ///< the leader's
     int axis = 0;           ///< which of the leader's axes, from 0
@@ -195,6 +196,10 @@ struct MimicSpec {
         offset = 0,         ///< rad or m, of the follower
         reference = 0;      ///< rad or m, of the leader
     std::string element;  ///< of the leader's axis, if its type has it (JointType::axes); else `axis` counts
+    std::array<double, 3> higher{};  ///< of the powers 2 to 4 (MJCF `polycoef`); zeros: in proportion
+
+    /// Whether it follows in proportion.
+    bool is_linear() const { return higher[0] == 0 && higher[1] == 0 && higher[2] == 0; }
 };
 
 /// From here on a limit means none: SDF writes 1e16.

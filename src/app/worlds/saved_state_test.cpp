@@ -214,9 +214,40 @@ TEST(SavedState, WhatIsWrongLeavesItsModelOutAndIsNamed) {
     const Loaded odd =
         load_elements("<model name='m'>" + link("a") +
                       "</model><state world_name='w'><model name='m'><pose frame='f'>1 2 3 0 0 "
-                      "0</pose><scale>2 1 1</scale><psoe/></model></state>");
+                      "0</pose><scale>2 0 1</scale><psoe/></model></state>");
     for (const char* code : {"state-frame", "state-scale", "unknown-element"})
         EXPECT_TRUE(odd.find(code)) << code << "\n" << odd.text();
+}
+
+TEST(SavedState, ScaleMultipliesTheSizesOfThatModelOnly) {
+    const auto box = [](const std::string& name) {
+        return link(name,
+                    "<collision name='c'><pose>0 0 1 0 0 0</pose><geometry><box><size>1 2 4</size></box>"
+                    "</geometry></collision><visual name='v'><geometry><sphere><radius>2</radius>"
+                    "</sphere></geometry></visual>");
+    };
+    const std::string scaled = "<model name='in'><scale>1 1 3</scale></model>";
+    const auto model = [&](const std::string& name) {
+        return "<model name='" + name + "'>" + box("a") + "<model name='in'>" + box("b") + "</model></model>";
+    };
+    const Loaded loaded =
+        load_elements(model("x") + model("y") + model("z") +
+                      "<state world_name='w'><model name='y'><scale>2 1 0.5</scale>" + scaled +
+                      "</model><model name='z'><scale>2 1 0.5</scale>" + scaled + "</model></state>");
+    ASSERT_TRUE(loaded.world) << loaded.text();
+    EXPECT_EQ(loaded.find("state-scale"), nullptr) << loaded.text();
+    const World& world = *loaded.world;
+    ASSERT_EQ(world.prototypes.size(), 2u) << "equal scales share a prototype";
+    EXPECT_EQ(world.instances.at(1).prototype, world.instances.at(2).prototype);
+    const ModelSpec& plain = world.prototypes[world.instances.at(0).prototype];
+    const ModelSpec& changed = world.prototypes[world.instances[1].prototype];
+    EXPECT_EQ(plain.links.at(0).collisions.at(0).geometry.size, (Vec3{1, 2, 4}));
+    EXPECT_EQ(changed.links.at(0).collisions.at(0).geometry.size, (Vec3{2, 2, 2}));
+    EXPECT_EQ(changed.links[0].collisions[0].X_LS.p.z, 1) << "places stay";
+    EXPECT_EQ(changed.links[0].visuals.at(0).geometry.radius, 4) << "by the largest factor";
+    EXPECT_EQ(changed.links[0].mass, plain.links[0].mass);
+    EXPECT_EQ(changed.links.at(1).collisions.at(0).geometry.size, (Vec3{1, 2, 12}))
+        << "the nested model's own";
 }
 
 TEST(SavedState, LinksThatDoNotFitTheirJointsAreToldAndTheRestIsKept) {

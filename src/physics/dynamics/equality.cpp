@@ -49,8 +49,19 @@ void add_loop(const RobotWork& work, std::span<const double> q, std::size_t inde
     }
 }
 
-void add_coupling(const RobotType& type, std::span<const double> q, const CoordinateCoupling& coupling,
+/// How fast a hinge or slide moves.
+double rate_of(const RobotWork& work, int dof) {
+    const int b = work.type->dofs[static_cast<std::size_t>(dof)].body;
+    const int parent = work.type->bodies[static_cast<std::size_t>(b)].parent;
+    Spatial motion = work.bodies[static_cast<std::size_t>(b)].velocity;
+    if (parent >= 0) motion = motion - work.bodies[static_cast<std::size_t>(parent)].velocity;
+    const Spatial& axis = work.axes[static_cast<std::size_t>(work.type->base_nv() + dof)];
+    return dot(axis, motion) / dot(axis, axis);
+}
+
+void add_coupling(const RobotWork& work, std::span<const double> q, const CoordinateCoupling& coupling,
                   Equalities& out) {
+    const RobotType& type = *work.type;
     const auto value = [&](int dof) {
         const Dof& d = type.dofs[static_cast<std::size_t>(dof)];
         return q[static_cast<std::size_t>(type.bodies[static_cast<std::size_t>(d.body)].q_index)];
@@ -58,9 +69,14 @@ void add_coupling(const RobotType& type, std::span<const double> q, const Coordi
     EqualityRow row;
     row.first = out.columns.size();
     out.columns.push_back({type.base_nv() + coupling.follower, 1.0});
-    out.columns.push_back({type.base_nv() + coupling.leader, -coupling.multiplier});
+    const double leader = value(coupling.leader);
+    out.columns.push_back({type.base_nv() + coupling.leader, -coupling.slope(leader)});
     row.last = out.columns.size();
-    row.error = value(coupling.follower) - coupling.multiplier * value(coupling.leader) - coupling.offset;
+    row.error = coupling.gap(value(coupling.follower), leader);
+    if (coupling.is_curved()) {
+        const double rate = rate_of(work, coupling.leader);
+        row.curvature = -coupling.bend(leader) * rate * rate;
+    }
     row.mobility = coupling.inverse_inertia;
     out.rows.push_back(row);
 }
@@ -101,8 +117,7 @@ void gather(const RobotWork& work, std::span<const double> q, bool with_columns,
     out.columns.clear(), out.rows.clear();
     out.has_columns = with_columns;
     for (std::size_t i = 0; i < work.type->loops.size(); ++i) add_loop(work, q, i, out);
-    for (const CoordinateCoupling& coupling : work.type->couplings)
-        add_coupling(*work.type, q, coupling, out);
+    for (const CoordinateCoupling& coupling : work.type->couplings) add_coupling(work, q, coupling, out);
 }
 
 /// How the bodies move about O at the rates x of what is not locked.

@@ -127,6 +127,36 @@ TEST(Mimic, FollowsWithMultiplierOffsetAndReference) {
     EXPECT_NEAR(sim.states[0].v[0], 4, 1e-12);
 }
 
+/// y = p(x): y follows exactly, and what x loses in inertia is that of y at its slope: the energy stays.
+TEST(Mimic, FollowsAPolynomialWithoutLosingEnergy) {
+    ModelSpec m = two_wheels();
+    MimicSpec mimic{"small", 0, 0.5, 0.1, 0.2, {}};
+    mimic.higher = {0.8, -0.3, 0.05};
+    m.joints[1].axes[0].mimic = mimic;
+    Simulation sim(with(m, 1e-3, {}));
+    const auto expected = [&] {
+        const double d = sim.states[0].q[7] - 0.2;
+        return 0.1 + 0.5 * d + 0.8 * d * d - 0.3 * d * d * d + 0.05 * d * d * d * d;
+    };
+    const auto slope = [&] {
+        const double d = sim.states[0].q[7] - 0.2;
+        return 0.5 + 1.6 * d - 0.9 * d * d + 0.2 * d * d * d;
+    };
+    const auto energy = [&] {
+        const double x = sim.states[0].v[0], y = sim.states[0].v[1];
+        return 0.02 * x * x / 2 + 0.05 * y * y / 2;
+    };
+    EXPECT_NEAR(sim.states[0].q[8], expected(), 1e-10) << "from the start";
+    sim.states[0].v = {1, slope()};
+    const double before = energy();
+    for (int i = 0; i < 10; ++i) {
+        sim.run(0.1);
+        EXPECT_NEAR(sim.states[0].q[8], expected(), 1e-12) << i;
+        EXPECT_NEAR(sim.states[0].v[1], slope() * sim.states[0].v[0], 1e-10) << i;
+        EXPECT_NEAR(energy(), before, 1e-4 * before) << i;
+    }
+}
+
 /// The frame of a joint as one of its links carries it.
 Transform joint_frame(const Simulation& sim, const JointSpec& j, const std::string& end) {
     for (const LinkSpec& l : sim.world.prototypes[0].links)

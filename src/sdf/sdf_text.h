@@ -1,0 +1,37 @@
+// SdfText: SDF that is made from another format, element by element. Each element keeps the line of the
+// source that it came from, so that every finding about it leads there.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+#include "sdf/source_file.h"
+
+namespace roboss::sdf_import {
+
+class SdfText {
+  public:
+    explicit SdfText(const SourceFile& source) : source_(source) {}
+
+    /// A new element in `parent` (null: the root), with the line of `from`, an element of the source; an
+    /// element that a repair added has none, and gets its parent's.
+    pugi::xml_node add(pugi::xml_node parent, const char* name, pugi::xml_node from,
+                       const std::string& text = {});
+    /// All of `from`, with what is in it.
+    pugi::xml_node copy(pugi::xml_node parent, pugi::xml_node from);
+
+    /// What was made, as a file to be read.
+    std::unique_ptr<SourceFile> read(Diagnostics& diagnostics) const;
+
+  private:
+    void keep_lines(pugi::xml_node node, pugi::xml_node from);
+    void print(pugi::xml_node node, int line, std::string& text, std::vector<int>& lines) const;
+
+    const SourceFile& source_;
+    pugi::xml_document document_;
+    std::unordered_map<std::size_t, int> lines_;  // by the node's hash value
+};
+
+}  // namespace roboss::sdf_import
