@@ -1,5 +1,6 @@
-// See joint_start.h. Each follower is an affine function of the joint that leads its chain, so the limits of
-// the whole chain are one interval of that joint's coordinate.
+// See joint_start.h. Behind linear couplings each follower is an affine function of the joint that leads its
+// chain, so the limits of the whole chain are one interval of that joint's coordinate. Followers behind a curved
+// coupling (MJCF `polycoef`) are placed, too, but do not narrow that interval.
 #include "model/joint_start.h"
 
 #include <algorithm>
@@ -18,6 +19,7 @@ struct ChainLink {
     std::size_t root = 0;
     double multiplier = 1, offset = 0;
     bool settled = true;  // false: it follows two leaders, or itself
+    bool curved = false;  // a coupling of the chain is: `multiplier` and `offset` do not count
 };
 
 class JointChains {
@@ -34,13 +36,22 @@ class JointChains {
 
     const ChainLink& operator[](std::size_t dof) const { return links_[dof]; }
     const CoordinateCoupling* coupling(std::size_t dof) const { return follows_[dof]; }
+    /// Where the coordinate stands when the root of its chain, which is settled, stands at `lead`.
+    double follow(std::size_t dof, double lead) const {
+        const ChainLink& link = links_[dof];
+        if (!link.curved) return link.multiplier * lead + link.offset;
+        const CoordinateCoupling& c = *follows_[dof];
+        return c.follow(follow(static_cast<std::size_t>(c.leader), lead));
+    }
 
   private:
     ChainLink resolve(std::size_t dof, const std::vector<char>& twice) const {
-        ChainLink link{dof, 1, 0, true};
+        ChainLink link;
+        link.root = dof;
         for (std::size_t steps = 0; follows_[link.root] != nullptr; ++steps) {
-            if (twice[link.root] != 0 || steps == type_.dofs.size()) return {dof, 1, 0, false};
+            if (twice[link.root] != 0 || steps == type_.dofs.size()) return {dof, 1, 0, false, false};
             const CoordinateCoupling& c = *follows_[link.root];
+            link.curved = link.curved || c.is_curved();
             link.offset += link.multiplier * c.offset;
             link.multiplier *= c.multiplier;
             link.root = static_cast<std::size_t>(c.leader);
@@ -58,7 +69,7 @@ struct Interval {
 
     /// Keeps the positions of the root that put the follower within its limits.
     void cut(const ChainLink& link, const Dof& dof) {
-        if (link.multiplier == 0) return;
+        if (link.multiplier == 0 || link.curved) return;
         double low = (dof.lower - link.offset) / link.multiplier,
                high = (dof.upper - link.offset) / link.multiplier;
         if (link.multiplier < 0) std::swap(low, high);
@@ -123,7 +134,7 @@ JointStart settle_joints(const RobotType& type, std::vector<double>& joints) {
         const double kept = std::max(std::min(lead, place.upper), place.lower);
         double& position = joints[coordinate_of(type, i)];
         const double before = position;
-        position = link.root == i ? kept : link.multiplier * kept + link.offset;
+        position = link.root == i ? kept : chains.follow(i, kept);
         if (std::fabs(position - before) > kToldFrom) result.moved.push_back({i, before, position});
         if (!starts_within(type.dofs[i], position)) result.beyond.push_back(i);
     }

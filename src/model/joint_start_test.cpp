@@ -72,6 +72,19 @@ TEST(JointStart, AChainOfFollowersFollowsItsLeader) {
     EXPECT_DOUBLE_EQ(start_of(c, "j0"), -0.45);
 }
 
+TEST(JointStart, AFollowerOfACurvedCouplingStandsWhereThePolynomialPutsIt) {
+    ModelSpec m = hinges({{-9, 9}, {-9, 9}, {-9, 9}});
+    follow(m, 0, "j1", -2, 0.1);
+    follow(m, 1, "j2", 3, 0.5);
+    axis_of(m, 1).mimic.value().higher = {1, 0, 2};  // 3 d + d^2 + 2 d^4 + 0.5
+    axis_of(m, 2).initial_position = 0.5;
+    const Compiled c = compile_one(m);
+    ASSERT_TRUE(c.model);
+    EXPECT_EQ(start_of(c, "j2"), 0.5);
+    EXPECT_DOUBLE_EQ(start_of(c, "j1"), 1.5 + 0.25 + 0.125 + 0.5);
+    EXPECT_DOUBLE_EQ(start_of(c, "j0"), 0.1 - 2 * 2.375);
+}
+
 TEST(JointStart, AJointStartsWithinItsLimitsAndANoteSaysWhatMoved) {
     ModelSpec m = hinges({{-2.77, -0.61}, {-1, 1}, {0.5, 1}});
     axis_of(m, 1).initial_position = 3;
