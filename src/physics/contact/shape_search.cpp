@@ -99,7 +99,7 @@ std::span<const ShapeSearch::Pair> ShapeSearch::between(const RobotWork& a, cons
         for (const std::uint32_t s : near_a_)
             find_in(crowd_of(b, l), a.shapes[s].box, [&](std::uint32_t t) { pairs_.emplace_back(s, t); });
     }
-    sort();
+    if (!a.crowds.empty() || !b.crowds.empty()) sort();
     return pairs_;
 }
 

@@ -105,6 +105,7 @@ class PlacedShapes {
         placed_at_.resize(robot.shapes.size(), 0);
     }
     const ShapeWork& operator[](std::size_t s) {
+        if (robot_->crowds.empty()) return robot_->shapes[s];
         const RobotType& type = *robot_->type;
         if (type.shape_groups.crowd(type.shapes[s].body) < 0) return robot_->shapes[s];
         ShapeWork& w = placed_[s];
@@ -127,7 +128,8 @@ class PlacedShapes {
 /// The place of any shape, also of a crowd's.
 inline Transform shape_pose(const Mechanics<double>& robot, std::size_t s) {
     const BodyShape& shape = robot.type->shapes[s];
-    if (robot.type->shape_groups.crowd(shape.body) < 0) return robot.shapes[s].X_WS;
+    const ShapeGroups& groups = robot.type->shape_groups;
+    if (groups.crowds.empty() || groups.crowd(shape.body) < 0) return robot.shapes[s].X_WS;
     return body_frame(robot, shape.body) * shape.X_BS;
 }
 
