@@ -32,6 +32,7 @@ ModelSpec equipped(const std::string& own) {
     drive.right = {spec.joints[1].name, spec.joints[3].name};
     drive.wheel_separation = 0.26, drive.wheel_radius = 0.05;
     drive.topic = "/" + own + "/cmd_vel", drive.output.topic = own + "_odometry";
+    drive.output.rate = sensor.update_rate_hz;
     spec.onboard.push_back({own + "plugin", drive, {}});
     LinearBatterySpec battery;
     battery.battery_name = own + "battery", battery.voltage = 12, battery.capacity = 2;

@@ -279,7 +279,12 @@ void add_to_step_hash(Hash& hash, const OnboardInfo& onboard) {
     for (const int channel : onboard.channels) add(channel);
     for (const int command : onboard.commands) add(command);
     hash.add(std::span<const double>(onboard.memory));
-    visit_parameters(onboard.spec.parameters, ParameterHash{hash, true});
+    OnboardParameters parameters = onboard.spec.parameters;
+    const auto leave_out_telemetry = [](auto& p) {
+        if constexpr (requires { p.output = OdometryOutput{}; }) p.output = OdometryOutput{};
+    };
+    std::visit(leave_out_telemetry, parameters);  // it says how odometry is published
+    visit_parameters(parameters, ParameterHash{hash, true});
 }
 
 }  // namespace roboss
