@@ -15,6 +15,7 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parent.parent
 ENGINES = ("MuJoCo", "ODE", "Bullet", "DART", "Box3D", "Rapier")
 LIMIT_S = 600
+ROBOTS = {"city": 50, "joint_grid": 36}  # these scenes have no smaller size
 FAILS = ("crashed", "ended its process", "process has ended")  # bench/peers/worker.cpp
 
 
@@ -52,12 +53,15 @@ class Smallest:
     def peers(self):
         """All scenes in all engines, few robots."""
         self.run("roboss-peers", "--check-engines")
+        listed = self.run("roboss-peers", "--help").split("Scenes:")[1].split("  threads:")[0]
+        scenes = [line.split(":")[0].strip() for line in listed.splitlines() if ": " in line]
         rows = self.scratch / "peers.json"
-        self.run("roboss-peers", "--robots", 4, "--steps", 3, "--settle", 1, "--blocks", 1, "--limit", 5, "--start-limit", 60,
-                 "--json", rows)
-        for row in json.loads(rows.read_text())["rows"]:
-            if any(sign in row.get("skipped", "") for sign in FAILS):
-                raise RuntimeError(f"{row['scene']}, {row['engine']}: {row['skipped']}")
+        for scene in scenes:
+            self.run("roboss-peers", "--scene", scene, "--robots", ROBOTS.get(scene, 4), "--steps", 3, "--settle", 1,
+                     "--blocks", 1, "--limit", 5, "--start-limit", 60, "--json", rows)
+            for row in json.loads(rows.read_text())["rows"]:
+                if any(sign in row.get("skipped", "") for sign in FAILS):
+                    raise RuntimeError(f"{row['scene']}, {row['engine']}: {row['skipped']}")
 
     def accuracy(self):
         """All cases on all peers, each with little patience; RoBOSS has its bounds tested elsewhere."""
