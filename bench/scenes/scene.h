@@ -63,5 +63,7 @@ Scene resting_shapes_scene(std::size_t shapes);
 Scene sleeping_shapes_scene(std::size_t shapes);
 // A net of plates and ball joints, hanging on two corners: one robot. Its plates are counted.
 Scene joint_grid_scene(std::size_t plates);
+// Four-wheelers on hills: a scene for each kind of ground and of wheels.
+std::vector<SceneKind> terrain_kinds();
 
 }  // namespace roboss::bench
