@@ -31,6 +31,33 @@ std::string pose(const Pose& X) {
     return attribute("pos", {X.p.x, X.p.y, X.p.z}) + attribute("quat", {X.q.w, X.q.x, X.q.y, X.q.z});
 }
 
+/// A mesh over a regular grid, as its heights: of other meshes MuJoCo takes the convex hull. Its vertices go
+/// row by row.
+std::shared_ptr<const HeightGridSpec> grid_of(const MeshSpec& mesh) {
+    const std::vector<Vec3>& v = mesh.vertices;
+    std::size_t columns = 1;
+    while (columns < v.size() && v[columns].y == v[0].y) ++columns;
+    if (columns < 2 || v.size() % columns != 0 || v.size() < 2 * columns) return nullptr;
+    auto grid = std::make_shared<HeightGridSpec>();
+    grid->source = mesh.source, grid->columns = columns, grid->rows = v.size() / columns;
+    grid->size_x = v.back().x - v[0].x, grid->size_y = v.back().y - v[0].y;
+    grid->centre = {0.5 * (v[0].x + v.back().x), 0.5 * (v[0].y + v.back().y), 0};
+    for (std::size_t k = 0; k < v.size(); ++k) {
+        const auto i = static_cast<double>(k % columns), j = static_cast<double>(k / columns);
+        const double x = v[0].x + grid->size_x * i / static_cast<double>(columns - 1),
+                     y = v[0].y + grid->size_y * j / static_cast<double>(grid->rows - 1);
+        constexpr double kSame = 1e-9;  // m
+        if (std::fabs(v[k].x - x) > kSame || std::fabs(v[k].y - y) > kSame) return nullptr;
+        grid->heights.push_back(v[k].z);
+    }
+    return grid;
+}
+
+std::shared_ptr<const HeightGridSpec> heights_of(const GeometrySpec& g) {
+    if (g.kind == GeometryKind::kHeightmap) return g.heights;
+    return g.kind == GeometryKind::kMesh && g.mesh && !g.as_hull ? grid_of(*g.mesh) : nullptr;
+}
+
 class Writer {
   public:
     Writer(const World& world, const MjcfOptions& options) : world_(world), options_(options) {}
@@ -149,6 +176,7 @@ class Writer {
 
     void geometry(const PartShape& shape, const Pose& X_PB) {
         const GeometrySpec& g = shape.collision->geometry;
+        if (const auto heights = heights_of(g)) return height_field(shape, heights, X_PB);
         bodies_ += "<geom" + pose(X_PB * shape.X_BS) + surface(shape.collision->surface);
         const double half = 0.5 * g.length;
         switch (g.kind) {
@@ -189,6 +217,20 @@ class Writer {
         std::vector<double> corners;
         for (const Vec3& v : g.mesh->vertices) corners.insert(corners.end(), {v.x, v.y, v.z});
         assets_ += "<mesh name=\"" + entry->second + "\"" + attribute("vertex", corners) + "/>\n";
+    }
+
+    /// Heights are relative to the lowest, which is where the geom is.
+    void height_field(const PartShape& shape, const std::shared_ptr<const HeightGridSpec>& grid,
+                      const Pose& X_PB) {
+        const auto [low, high] = std::ranges::minmax(grid->heights);
+        const std::string name = "h" + std::to_string(places_.heights.size());
+        places_.heights.push_back(grid);
+        assets_ += "<hfield name=\"" + name + "\" nrow=\"" + std::to_string(grid->rows) + "\" ncol=\"" +
+                   std::to_string(grid->columns) + "\"" +
+                   attribute("size", {0.5 * grid->size_x, 0.5 * grid->size_y, high - low, 0.5}) + "/>\n";
+        const Pose X_BH{grid->centre + Vec3{0, 0, low}, {}};
+        bodies_ += "<geom type=\"hfield\" hfield=\"" + name + "\"" + pose(X_PB * shape.X_BS * X_BH) +
+                   surface(shape.collision->surface) + "/>\n";
     }
 
     std::string surface(const SurfaceSpec& s) const {

@@ -1,6 +1,7 @@
 // A World as MuJoCo's XML, and where its bodies and joints stand in the compiled model.
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -32,6 +33,8 @@ struct MjcfPlaces {
         std::vector<int> free_joints;          // by body; -1: none
     };
     std::vector<Instance> instances;
+    std::vector<std::shared_ptr<const HeightGridSpec>>
+        heights;  // by MuJoCo's id of the height field: its data
     std::string xml;
 };
 

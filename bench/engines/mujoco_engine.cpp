@@ -81,6 +81,16 @@ ModelPointer load(const std::string& xml) {
     return model;
 }
 
+/// Elevations from 0 to 1.
+void fill_height_fields(const MjcfPlaces& places, mjModel& model) {
+    for (std::size_t h = 0; h < places.heights.size(); ++h) {
+        const std::vector<double>& heights = places.heights[h]->heights;
+        const auto [low, high] = std::ranges::minmax(heights);
+        float* to = model.hfield_data + model.hfield_adr[h];
+        for (const double z : heights) *to++ = static_cast<float>(high > low ? (z - low) / (high - low) : 0);
+    }
+}
+
 /// A motor on one degree of freedom: effort = clamp(stiffness (target - q) + damping (speed - qd), bound).
 struct Motor {
     bool on = false;
@@ -261,6 +271,7 @@ std::unique_ptr<Engine> make_mujoco(const World& world, const EngineOptions& opt
     auto places = write_mjcf(world, mjcf);
     if (!places) return nullptr;
     ModelPointer model = load(places->xml);
+    fill_height_fields(*places, *model);
     const std::string settings =
         "double, " + mjcf.integrator + ", " + mjcf.solver + ", " + mjcf.cone + " cones, " + mjcf.jacobian +
         " Jacobians" +

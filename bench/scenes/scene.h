@@ -65,5 +65,7 @@ Scene sleeping_shapes_scene(std::size_t shapes);
 Scene joint_grid_scene(std::size_t plates);
 // Humanoids of a thousand convex hulls each, falling freely.
 Scene many_hulls_scene(std::size_t humanoids);
+// Four-wheelers on hills: a scene for each kind of ground and of wheels.
+std::vector<SceneKind> terrain_kinds();
 
 }  // namespace roboss::bench

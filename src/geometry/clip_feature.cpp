@@ -27,6 +27,21 @@ struct Polygon {
     }
 };
 
+/// Across side k, as long as it.
+Vec3 inward_of(const Feature& face, std::size_t k) {
+    return cross(face.n, face.points[k + 1 < face.count ? k + 1 : 0] - face.points[k]);
+}
+
+/// True if all points of the feature are over the face.
+bool is_all_over(const Feature& face, const Feature& incident) {
+    for (std::size_t k = 0; k < face.count; ++k) {
+        const Vec3 inward = inward_of(face, k);
+        for (std::size_t i = 0; i < incident.count; ++i)
+            if (!(dot(inward, incident.points[i] - face.points[k]) > 0)) return false;
+    }
+    return true;
+}
+
 struct Side {
     const Feature& face;
     std::size_t k;
@@ -35,8 +50,7 @@ struct Side {
 
     Side(const Feature& f, std::size_t number, double wide) : face(f), k(number), border(wide) {
         origin = f.points[k];
-        const Vec3 along = f.points[(k + 1) % f.count] - origin;
-        const Vec3 across = cross(f.n, along);
+        const Vec3 across = inward_of(f, k);
         inward = across / norm(across);
     }
     double depth(const Vec3& p) const { return dot(inward, p - origin); }
@@ -99,6 +113,12 @@ OverFace over(const Feature& face, const Vec3& p, double ball, std::uint32_t par
 
 void clip_polygon(const Feature& face, const Feature& incident, double ball, double border, double merge,
                   ClippedFeature& out) {
+    if (is_all_over(face, incident)) {
+        for (std::size_t i = 0; i < incident.count; ++i)
+            add_point(face, over(face, incident.points[i], ball, incident.part[i], face.face_part), merge,
+                      out);
+        return;
+    }
     std::array<Polygon, 2> polygons;
     Polygon *polygon = &polygons[0], *next = &polygons[1];
     for (std::uint32_t i = 0; i < incident.count; ++i)
@@ -119,10 +139,13 @@ void clip_line(const Feature& face, const Feature& incident, double ball, double
     double t0 = 0.0, t1 = 1.0;
     std::uint32_t edge0 = face.face_part, edge1 = face.face_part;
     for (std::size_t k = 0; k < face.count; ++k) {
-        const Side side(face, k, border);
-        const double a = side.depth(p), b = last == 0 ? a : side.depth(p + d);
-        if (a < -border && b < -border) return;
-        if (a >= -border && b >= -border) continue;
+        const Vec3 inward = inward_of(face, k), from = p - face.points[k];
+        const double a = dot(inward, from), b = last == 0 ? a : dot(inward, from + d);
+        if (a >= 0 && b >= 0) continue;
+        const double strip = border * border * norm_squared(inward);  // depths are as long as the side here
+        const bool p_outside = a < 0 && a * a > strip, q_outside = b < 0 && b * b > strip;
+        if (p_outside && q_outside) return;
+        if (!p_outside && !q_outside) continue;
         const double t = a > b && a <= 0.0 ? 0.0 : b > a && b <= 0.0 ? 1.0 : a / (a - b);
         if (a < b) {
             if (t > t0) t0 = t, edge0 = face.edge_part[k];

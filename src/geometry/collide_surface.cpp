@@ -7,13 +7,13 @@
 
 #include "geometry/closest_point.h"
 #include "geometry/collide_general.h"
+#include "geometry/ridge_direction.h"
 
 namespace roboss {
 namespace {
 
 using namespace narrow;
 
-constexpr double kRidge = -1e-6;                 // fold below which an edge sticks out
 constexpr double kTops = 1e-6;                   // sine by which a neighbour may rise along a normal
 constexpr double kUpright = 0.9;                 // cosine
 constexpr double kShallow = 0.05;                // of the body's size: deeper, a face may not be the way out
@@ -33,26 +33,22 @@ class SurfaceCollider {
         : body_(body), surface_(surface), margin_(margin), out_(out) {}
 
     void collide(std::uint32_t number) {
-        number_ = number;
-        triangle_ = surface_.triangle(number);
-        double height = dot(triangle_.n, body_.centre() - triangle_.v[0]);
-        if (height < 0.0 && !surface_.is_ground()) {
-            if (surface_.sides() == SurfaceSides::kSolid) return;
-            turn_over();
-            height = -height;
-        }
-        const Vec3& n = triangle_.n;
+        const SurfaceFace only_face = surface_.face(number);
+        double height = dot(only_face.n, body_.centre() - only_face.v[0]);
+        const bool below = height < 0.0;
+        if (below && !surface_.is_ground() && surface_.sides() == SurfaceSides::kSolid) return;
+        const bool turns = below && !surface_.is_ground();
+        if (turns) height = -height;
+        const Vec3 n = turns ? -only_face.n : only_face.n;
         const double s_face = height - body_.reach(-n) - body_.ball();
         if (s_face > margin_) return;
-        Feature face;
-        face.n = n;
-        face.face_part = kFace;
-        for (std::uint32_t k = 0; k < 3; ++k) face.add(triangle_.v[k], k, 3 + k);
-        const ClippedFeature over =
-            clip_over(face, body_.feature(-n), body_.ball(), kBorder * body_.size(), kMerge * body_.size());
+        number_ = number, triangle_ = surface_.triangle(number);
+        turned_ = false;
+        if (turns) turn_over();
+        const ClippedFeature over = points_over();
         const bool shallow = s_face > -kShallow * body_.size();
         const bool ridge = std::any_of(triangle_.fold.begin(), triangle_.fold.end(),
-                                       [](double fold) { return fold < kRidge; });
+                                       [](double fold) { return fold < kRidgeFold; });
         const bool over_it = !over.points.empty() && over.deepest() <= s_face + 1e-6 * body_.size();
         if ((shallow && (!ridge || over_it)) || height < 0.0) return add_face(over, out_.candidates);
         collide_ridge(over, shallow);
@@ -72,6 +68,28 @@ class SurfaceCollider {
 
     std::size_t corner_of_surface(std::size_t k) const { return turned_ && k > 0 ? 3 - k : k; }
 
+    /// Of the body's feature that is furthest down, what is over the triangle.
+    ClippedFeature points_over() const {
+        const Vec3& n = triangle_.n;
+        const double border = kBorder * body_.size();
+        ClippedFeature over;
+        if (!body_.is_pointed()) {
+            Feature face;
+            face.n = n;
+            face.face_part = kFace;
+            for (std::uint32_t k = 0; k < 3; ++k) face.add(triangle_.v[k], k, 3 + k);
+            return clip_over(face, body_.feature(-n), body_.ball(), border, kMerge * body_.size());
+        }
+        const Vec3 p = body_.centre() + body_.support(-n);
+        for (std::size_t k = 0; k < 3; ++k) {
+            const Vec3 inward = cross(n, triangle_.v[(k + 1) % 3] - triangle_.v[k]);
+            const double depth = dot(inward, p - triangle_.v[k]);
+            if (depth < 0 && depth * depth > border * border * norm_squared(inward)) return over;
+        }
+        over.points.push_back({p, dot(n, p - triangle_.v[0]) - body_.ball(), 0, kFace});
+        return over;
+    }
+
     /// True only if the body is further than the margin; quick, and mostly true where it is.
     bool is_far() const {
         const Vec3 away = body_.centre() - closest_point(triangle_.v, body_.centre());
@@ -80,10 +98,33 @@ class SurfaceCollider {
     }
 
     void collide_ridge(const ClippedFeature& over, bool shallow) {
-        if (is_far()) return;
+        if (body_.is_round()) return collide_round(over, shallow);
+        const double enough = margin_ + body_.ball();
+        RidgeDirection found = ridge_direction(body_, triangle_, enough);
+        if (found.across == Across::kApart) return;
+        // Only the general search tells where the way out of what has sunk in is.
+        if (found.best.s < body_.ball() - kShallow * body_.size()) found.across = Across::kUnknown;
+        if (found.across == Across::kNeighbour && (shallow || surface_.is_ground() || over.points.empty()))
+            return add_face(over, out_.candidates);
+        if (found.across != Across::kRidge) {
+            if (is_far()) return;
+            const ConvexBody sheet(triangle_.v, triangle_.n);
+            found.best = best_separation(body_, sheet, enough);
+        }
+        if (found.best.s <= enough) add_along(found.best, over, shallow);
+    }
+
+    /// A ball.
+    void collide_round(const ClippedFeature& over, bool shallow) {
+        const Vec3 away = body_.centre() - closest_point(triangle_.v, body_.centre());
+        const double distance = norm(away);
+        if (distance > margin_ + body_.ball()) return;
+        add_along({distance > 0.0 ? away / distance : triangle_.n, distance}, over, shallow);
+    }
+
+    /// `best`: the way out of the triangle alone.
+    void add_along(const Separation& best, const ClippedFeature& over, bool shallow) {
         const ConvexBody sheet(triangle_.v, triangle_.n);
-        const Separation best = best_separation(body_, sheet, margin_ + body_.ball());
-        if (best.s > margin_ + body_.ball()) return;
         if (!is_own_normal(sheet, best.n)) {
             // Near the face's normal: the body is only deeper over a neighbour, it has not gone through.
             const bool held = shallow || surface_.is_ground() || dot(best.n, triangle_.n) > kUpright;
@@ -108,7 +149,7 @@ class SurfaceCollider {
             const std::size_t edge = top.edge_part[0] - 3;
             if (triangle_.fold[edge] == SurfaceTriangle::kBorder) return true;
             const Vec3 across = triangle_.beyond[edge] - triangle_.v[edge];
-            return triangle_.fold[edge] < kRidge && dot(d, across) <= kTops * norm(across);
+            return triangle_.fold[edge] < kRidgeFold && dot(d, across) <= kTops * norm(across);
         }
         return surface_.tops(number_, corner_of_surface(top.part[0]), d, kTops);
     }
@@ -140,6 +181,7 @@ class SurfaceCollider {
 /// Takes the points of one cluster that count: at most 8, no two in one place.
 void reduce_cluster(SurfaceContacts& work, double merge) {
     const std::vector<SurfaceContact>& cluster = work.cluster;
+    if (cluster.size() == 1) return work.points.push_back(cluster.front());
     // Also where they are few: points on seams between the outermost ones would only come and go.
     work.positions.clear(), work.gaps.clear();
     for (const SurfaceContact& c : cluster) work.positions.push_back(c.p_W), work.gaps.push_back(c.gap);

@@ -88,6 +88,31 @@ Vec3 ConvexBody::support(const Vec3& d_W) const {
     }
 }
 
+double ConvexBody::reach(const Vec3& d_W) const {
+    if (core_ == Core::kPoint) return 0;
+    if (core_ == Core::kTriangle || core_ == Core::kHull) return dot(d_W, support(d_W));
+    const Shape& s = posed_->shape;
+    const Vec3 d = transpose_times(posed_->X.R, d_W);
+    switch (core_) {
+        case Core::kBox:
+            return std::fabs(d.x) * s.half.x + std::fabs(d.y) * s.half.y + std::fabs(d.z) * s.half.z;
+        case Core::kCylinder:
+            return std::sqrt(d.x * d.x + d.y * d.y) * s.radius + std::fabs(d.z) * s.half_length;
+        case Core::kEllipsoid:
+            return norm(scaled(d, s.half));
+        default:
+            return std::fabs(d.z) * s.half_length;
+    }
+}
+
+FixedList<Vec3, 3> ConvexBody::kinks() const {
+    FixedList<Vec3, 3> axes;
+    if (core_ == Core::kBox)
+        for (std::size_t i = 0; i < 3; ++i) axes.push_back(posed_->axis(i));
+    if (core_ == Core::kCylinder || core_ == Core::kSegment) axes.push_back(posed_->axis(2));
+    return axes;
+}
+
 NearFeatures ConvexBody::near(const Vec3& d, double sine) const {
     NearFeatures found;
     const double cosine = std::sqrt(1.0 - sine * sine);

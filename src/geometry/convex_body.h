@@ -29,7 +29,7 @@ struct NearFeatures {
 struct Feature {
     static constexpr std::size_t kMaxPoints = 16;
     std::size_t count = 0;
-    std::array<Vec3, kMaxPoints> points;
+    FixedList<Vec3, kMaxPoints> points;
     std::array<std::uint32_t, kMaxPoints> part;
     std::array<std::uint32_t, kMaxPoints> edge_part;
     std::uint32_t face_part = 0;
@@ -37,7 +37,7 @@ struct Feature {
 
     bool is_face() const { return count > 2; }
     void add(const Vec3& p, std::uint32_t name, std::uint32_t edge_name) {
-        points[count] = p;
+        points.push_back(p);
         part[count] = name;
         edge_part[count++] = edge_name;
     }
@@ -58,7 +58,15 @@ class ConvexBody {
 
     /// The core's point furthest along d (any length but zero), from the centre.
     Vec3 support(const Vec3& d) const;
-    double reach(const Vec3& d) const { return dot(d, support(d)); }
+    /// d . support(d).
+    double reach(const Vec3& d) const;
+    /// Axes of straight edges and lines, and of rims, so that the support point jumps where d is
+    /// perpendicular to one; those of a hull are too many and are left out.
+    FixedList<Vec3, 3> kinks() const;
+    bool is_round() const { return core_ == Core::kPoint; }
+    bool is_hull() const { return core_ == Core::kHull; }
+    /// True if the feature along any direction is a single point.
+    bool is_pointed() const { return core_ == Core::kPoint || core_ == Core::kEllipsoid; }
     NearFeatures near(const Vec3& d, double sine) const;
     /// Adds the second derivatives of the support function at the unit vector d along the tangents t1, t2;
     /// false where it has none.

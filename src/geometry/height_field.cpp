@@ -52,11 +52,23 @@ void HeightField::query(const Aabb& box, std::vector<std::uint32_t>& out) const 
     out.clear();
     if (is_beside(box)) return;
     const Cells cells = cells_under(box);
+    const double sliver = 1e-9 * dx_ * dy_;  // more than rounding: nothing slips through the diagonal
     for (std::size_t j = cells.j0; j <= cells.j1; ++j) {
+        const double y = y0_ + dy_ * static_cast<double>(j), front = (box.min.y - y) * dx_,
+                     back = (box.max.y - y) * dx_;
         for (std::size_t i = cells.i0; i <= cells.i1; ++i) {
-            if (highest(i, j) < box.min.z) continue;  // what is below ground is in it
+            const double* h = &heights_[j * columns_ + i];
+            const double across =
+                std::max(h[0], h[columns_ + 1]);  // of the diagonal; what is below ground is in it
+            const double x = x0_ + dx_ * static_cast<double>(i), left = (box.min.x - x) * dy_,
+                         right = (box.max.x - x) * dy_;
             const auto number = static_cast<std::uint32_t>(2 * (j * (columns_ - 1) + i));
-            out.push_back(number), out.push_back(number + 1);
+            // What has sunk below a cell may be nearest to either half.
+            const bool sunk = box.max.z < std::min({h[0], h[1], h[columns_], h[columns_ + 1]});
+            if (std::max(across, h[1]) >= box.min.z && (sunk || right >= front - sliver))
+                out.push_back(number);
+            if (std::max(across, h[columns_]) >= box.min.z && (sunk || back >= left - sliver))
+                out.push_back(number + 1);
         }
     }
 }
@@ -73,16 +85,27 @@ bool HeightField::may_overlap(const Aabb& box) const {
 }
 
 std::array<HeightField::Node, 3> HeightField::nodes(std::uint32_t number) const {
-    const std::size_t cell = number / 2, i = cell % (columns_ - 1), j = cell / (columns_ - 1);
+    // 32 bits: a division of 64 takes as long as the rest of a face.
+    const auto width = static_cast<std::uint32_t>(columns_ - 1);
+    const std::uint32_t cell = number / 2;
+    const std::size_t i = cell % width, j = cell / width;
     if (number % 2 == 0) return {{{i, j}, {i + 1, j}, {i + 1, j + 1}}};
     return {{{i, j}, {i + 1, j + 1}, {i, j + 1}}};
 }
 
+SurfaceFace HeightField::face(std::uint32_t number) const {
+    const std::array<Node, 3> at = nodes(number);
+    SurfaceFace f;
+    for (std::size_t k = 0; k < 3; ++k) f.v[k] = point(at[k].i, at[k].j);
+    f.n = normalized(cross(f.v[1] - f.v[0], f.v[2] - f.v[0]));
+    return f;
+}
+
 SurfaceTriangle HeightField::triangle(std::uint32_t number) const {
     const std::array<Node, 3> at = nodes(number);
+    const SurfaceFace face = this->face(number);
     SurfaceTriangle t;
-    for (std::size_t k = 0; k < 3; ++k) t.v[k] = point(at[k].i, at[k].j);
-    t.n = normalized(cross(t.v[1] - t.v[0], t.v[2] - t.v[0]));
+    t.v = face.v, t.n = face.n;
     const auto beyond = [&](std::size_t edge, bool known, std::size_t i, std::size_t j) {
         t.beyond[edge] = t.v[edge];
         t.fold[edge] = SurfaceTriangle::kBorder;

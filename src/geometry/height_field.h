@@ -20,6 +20,7 @@ class HeightField final : public TriangleSurface {
     void query(const Aabb& box, std::vector<std::uint32_t>& out) const override;
     bool may_overlap(const Aabb& box) const override;
     SurfaceTriangle triangle(std::uint32_t number) const override;
+    SurfaceFace face(std::uint32_t number) const override;
     bool tops(std::uint32_t number, std::size_t corner, const Vec3& d, double tolerance) const override;
     double ray(const Vec3& origin, const Vec3& direction, double limit) const override;
     bool is_ground() const override { return true; }

@@ -162,7 +162,7 @@ class TriangleSweep {
 
     /// `m` becomes the manifold of the impact.
     std::optional<double> impact(std::uint32_t number, Manifold& m) const {
-        SurfaceTriangle triangle = surface_.triangle(number);
+        SurfaceFace triangle = surface_.face(number);
         const Posed posed{*course_.shape, course_.X};
         const ConvexBody body(posed);
         double height = dot(triangle.n, body.centre() - triangle.v[0]);

@@ -20,6 +20,10 @@ class TriangleMesh final : public TriangleSurface {
     void query(const Aabb& box, std::vector<std::uint32_t>& out) const override { bvh_.query(box, out); }
     bool may_overlap(const Aabb& box) const override { return bvh_.overlaps_any(box); }
     SurfaceTriangle triangle(std::uint32_t number) const override;
+    SurfaceFace face(std::uint32_t number) const override {
+        const Entry& t = triangles_[number];
+        return {{vertices_[t.v[0]], vertices_[t.v[1]], vertices_[t.v[2]]}, t.n};
+    }
     bool tops(std::uint32_t number, std::size_t corner, const Vec3& d, double tolerance) const override;
     double ray(const Vec3& origin, const Vec3& direction, double limit) const override;
     SurfaceSource source() const override;

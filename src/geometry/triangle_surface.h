@@ -25,6 +25,12 @@ struct SurfaceTriangle {
     static constexpr double kBorder = -2.0;
 };
 
+/// The same without its neighbours.
+struct SurfaceFace {
+    std::array<Vec3, 3> v;
+    Vec3 n;
+};
+
 /// What lies on the other side of the triangles.
 enum class SurfaceSides {
     kSolid,  // a closed mesh, or ground: solid below, contacts push along n only
@@ -52,11 +58,12 @@ class TriangleSurface {
     std::uint64_t hash() const { return hash_; }  // of its content
 
     virtual std::size_t triangle_count() const = 0;
-    /// Numbers of the triangles whose boxes overlap `box`, ascending; clears `out` first.
+    /// Numbers of the triangles that may meet `box`, all that do among them, ascending; clears `out` first.
     virtual void query(const Aabb& box, std::vector<std::uint32_t>& out) const = 0;
     /// False only if query() would find none.
     virtual bool may_overlap(const Aabb& box) const = 0;
     virtual SurfaceTriangle triangle(std::uint32_t number) const = 0;
+    virtual SurfaceFace face(std::uint32_t number) const = 0;
     /// Whether no neighbour of a triangle's corner rises along the unit vector d by more than the sine
     /// `tolerance`.
     virtual bool tops(std::uint32_t number, std::size_t corner, const Vec3& d, double tolerance) const = 0;

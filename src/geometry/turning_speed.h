@@ -38,8 +38,14 @@ T turning_speed(const Shape& shape, const Mat3T<T>& R, const Vec3T<T>& w) {
             for (const Vec3& vertex : shape.hull->vertices)
                 fastest = larger(fastest, norm_squared(cross(l, broadcast<T>(vertex))));
             return sqrt(fastest);
-        case ShapeKind::kEllipsoid:
-            break;
+        case ShapeKind::kEllipsoid: {
+            // A point of an ellipse of radii a and b has (d x p) = (a^2 - b^2) d1 d2 / h, at most |a - b|.
+            const Vec3& r = shape.half;
+            const T most = magnitude(l.x) * T(std::fabs(r.y - r.z)) +
+                           magnitude(l.y) * T(std::fabs(r.x - r.z)) +
+                           magnitude(l.z) * T(std::fabs(r.x - r.y));
+            return smaller(most, norm(l) * T(bounding_radius(shape)));
+        }
     }
     return norm(l) * T(bounding_radius(shape));
 }

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/check.h"
+#include "core/hash.h"
 #include "physics/step_failure.h"
 
 namespace roboss {
@@ -116,7 +117,7 @@ Team RobotGroup::team() const {
 
 /// Tells each thread's islands about the group.
 void RobotGroup::start_islands() {
-    s_.waiting.clear();
+    s_.waiting.clear(), s_.lane_members.clear();
     if (s_.island.size() < team().size()) s_.island.resize(team().size());
     for (std::size_t worker = 0; worker < team().size(); ++worker) {
         IslandScratch& island = s_.island[worker];
@@ -166,8 +167,18 @@ bool RobotGroup::goes_in_lanes(std::span<const std::uint32_t> members) const {
         return false;
     if (!misses_of(members[0], s_.finder.near_misses()).empty()) return false;
     if (!s_.lanes.take(call_.model, *work.type, *work.state)) return false;
-    return s_.lanes.in_floats() ||
-           (robots_.size() > 1 && touches_one_thing(contacts_of(members[0], s_.contacts)));
+    if (s_.lanes.in_floats()) return true;
+    if (s_.rough && !s_.rough_luck.is_good(call_.tick)) return false;
+    return (robots_.size() > 1 && touches_one_thing(contacts_of(members[0], s_.contacts)));
+}
+
+/// Robots of equal kinds have contacts alike; other ones may share a kind by chance, and lanes will notice.
+std::uint64_t RobotGroup::lane_kind(std::uint32_t robot) const {
+    Hash kind;
+    kind.add(static_cast<std::uint64_t>(call_.model.like(robots_[robot].id).index()));
+    for (const Contact& c : contacts_of(robot, s_.contacts))
+        kind.add(std::uint64_t{c.shape_a} << 32 | c.shape_b);
+    return kind.value();
 }
 
 void RobotGroup::report() {

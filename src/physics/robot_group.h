@@ -1,6 +1,8 @@
 // A group of robots that may meet each other and no others: one kind of batch of a tick (tick.h).
 #pragma once
 
+#include <algorithm>
+
 #include "physics/contact/contact_island.h"
 #include "physics/group_scratch.h"
 
@@ -44,6 +46,7 @@ class RobotGroup {
 
   private:
     bool goes_in_lanes(std::span<const std::uint32_t> members) const;
+    std::uint64_t lane_kind(std::uint32_t robot) const;
     Team team() const;
     void start_islands();
     std::size_t count_large();
@@ -70,21 +73,26 @@ void RobotGroup::for_each_contact_island(StepIsland&& step, StageClock& clock) {
     const auto step_lanes = [&](std::vector<std::uint32_t>& batch) {
         step_batch(s_.lanes, model, batch, call_.report, call_.clock, lane_of,
                    [&](std::uint32_t i, bool stepped) {
+                       if (s_.rough) s_.rough_luck.note(stepped);
                        if (!stepped) return step_one({&i, 1});
                        robots_[i].held = true;
                    });
     };
     start_islands();
-    s_.queue.start(model.types.size());
     s_.islands.for_each_set(s_.members, [&](std::span<const std::uint32_t> members) {
         if (!goes_in_lanes(members)) {
             if (team().size() == 1) return step_one(members);
             return s_.waiting.push_back(members);
         }
-        const std::size_t type = model.like(robots_[members[0]].id).index();
-        s_.queue.add(type, members[0], s_.lanes.width(), step_lanes);
+        s_.lane_members.push_back({lane_kind(members[0]), members[0]});
     });
-    s_.queue.finish(step_lanes);
+    std::ranges::sort(s_.lane_members);
+    for (std::size_t k = 0; k < s_.lane_members.size(); ++k) {
+        s_.batch.push_back(s_.lane_members[k].robot);
+        const bool ends =
+            k + 1 == s_.lane_members.size() || s_.lane_members[k + 1].kind != s_.lane_members[k].kind;
+        if (ends || s_.batch.size() == s_.lanes.width()) step_lanes(s_.batch);
+    }
     if (s_.waiting.empty()) return;
     const std::size_t large = count_large();
     s_.island[0].team = team();

@@ -35,10 +35,10 @@ struct Helper {
     StageClock clock;
 };
 
-/// What helpers step, one after the other: robots, numbers of the call, that may meet, or in lanes, or each
-/// alone.
+/// What helpers step, one after the other: robots, numbers of the call, that may meet, or in lanes, or a
+/// group of those on rough ground, or each alone.
 struct Unit {
-    enum class Kind : std::uint8_t { kGroup, kLanes, kAlone } kind = Kind::kGroup;
+    enum class Kind : std::uint8_t { kGroup, kLanes, kRough, kAlone } kind = Kind::kGroup;
     std::size_t first = 0, last = 0;  // of NearSets::near() or Impl::lone
     std::size_t weight = 0;           // of its robots
 };
@@ -60,9 +60,10 @@ struct StepScratch::Impl {
     std::unique_ptr<LaneStepper> single = make_single_stepper();
     LaneQueue queue;
     std::size_t lanes_most = kMostLanes;
-    std::vector<Helper> helpers;      // one a thread of the team
-    std::vector<Unit> units;          // that they step side by side
-    std::vector<std::uint32_t> lone;  // robots of these that meet no other
+    std::vector<Helper> helpers;       // one a thread of the team
+    std::vector<Unit> units;           // that they step side by side
+    std::vector<std::uint32_t> lone;   // robots of these that meet no other
+    std::vector<std::uint32_t> rough;  // some that meet no other, on rough ground
     OnboardScratch onboard;
     RobotWork pulled;  // for those that are pulled
 
@@ -177,14 +178,28 @@ void let_sleep(const StepCall& call, Impl& s) {
     call.report.asleep += static_cast<int>(s.sets.sleepers().size());
 }
 
+/// Steps some robots as one group; `works` grows to hold them.
+void step_some(const StepCall& call, std::span<const std::uint32_t> some, std::vector<RobotWork>& works,
+               GroupScratch& group, Impl& s) {
+    make_room(works, some.size());
+    if (works.size() < some.size()) works.resize(some.size());
+    step_group(call, some, std::span(works).first(some.size()), group, s);
+}
+
+/// Steps robots that meet nobody, on rough ground.
+void step_rough(const StepCall& call, std::span<const std::uint32_t> some, std::vector<RobotWork>& works,
+                GroupScratch& group, Impl& s) {
+    group.rough = true;
+    step_some(call, some, works, group, s);
+    group.rough = false;
+}
+
 /// Steps robots that may meet, some sets of them.
 void step_sets(const StepCall& call, const Unit& unit, std::vector<RobotWork>& works, GroupScratch& group,
                Impl& s) {
     const std::span<std::uint32_t> some = s.sets.near().subspan(unit.first, unit.last - unit.first);
     std::sort(some.begin(), some.end());
-    make_room(works, some.size());
-    if (works.size() < some.size()) works.resize(some.size());
-    step_group(call, some, std::span(works).first(some.size()), group, s);
+    step_some(call, some, works, group, s);
 }
 
 /// Lists those who may meet, some sets at a time: so few that what is computed of them stays in the cache, so
@@ -233,26 +248,50 @@ bool suits_lanes(const GroupScratch& group, const Model& model, const RobotType&
            (group.lanes.in_floats() || std::ranges::none_of(state.contacts, is_elsewhere));
 }
 
-/// Each robot that meets nobody by itself, in_lanes(batch) with others of its type or alone(i).
-template <class InLanes, class Alone>
-void for_each_lone(const StepCall& call, Impl& s, const InLanes& in_lanes, const Alone& alone) {
+/// On a surface of triangles robots touch the ground in many ways: contacts are found first, then those alike
+/// are stepped in lanes (RobotGroup).
+bool is_on_rough_ground(const Model& model, const RobotState& state) {
+    if (state.contacts.empty() || state.contacts[0].other_robot != RobotId::kNone) return false;
+    const std::uint32_t i = state.contacts[0].other_shape;
+    return i < model.statics.size() && model.statics[i].shape.kind == ShapeKind::kSurface;
+}
+
+/// How many of them are one group: so many that registers are filled, so few that each thread has some.
+std::size_t rough_group(const StepCall& call, const Impl& s) {
+    constexpr std::size_t kLeast = 16, kMost = 128;
+    return std::clamp(call.robots.size() / (2 * std::max<std::size_t>(s.group.team.size(), 1)), kLeast,
+                      kMost);
+}
+
+/// Each robot that meets nobody: in_lanes(batch) with others of its type, rough(some) on rough ground, or
+/// alone(i).
+template <class InLanes, class Rough, class Alone>
+void for_each_lone(const StepCall& call, Impl& s, const InLanes& in_lanes, const Rough& rough,
+                   const Alone& alone) {
     const Model& model = call.model;
-    s.queue.start(model.types.size());
+    const std::size_t most = rough_group(call, s);
+    s.queue.start(model.types.size()), s.rough.clear();
     for (std::uint32_t i = 0; i < call.robots.size(); ++i) {
         if (s.sets.is_near(i)) continue;
         const std::size_t type = model.like(call.robots[i]).index();
-        if (suits_lanes(s.group, model, model.types[type], *call.states[i]))
-            s.queue.add(type, i, s.group.lanes.width(), in_lanes);
-        else
+        if (!suits_lanes(s.group, model, model.types[type], *call.states[i])) {
             alone(i);
+        } else if (is_on_rough_ground(model, *call.states[i])) {
+            s.rough.push_back(i);
+            if (s.rough.size() == most) rough(s.rough), s.rough.clear();
+        } else {
+            s.queue.add(type, i, s.group.lanes.width(), in_lanes);
+        }
     }
     s.queue.finish(in_lanes);
+    if (!s.rough.empty()) rough(s.rough);
 }
 
 void step_lone_robots(const StepCall& call, Impl& s) {
     for_each_lone(
         call, s,
         [&](std::vector<std::uint32_t>& batch) { step_in_lanes(call, batch, s.batch, s.alone, s.group, s); },
+        [&](std::span<const std::uint32_t> some) { step_rough(call, some, s.works, s.group, s); },
         [&](std::uint32_t i) {
             step_group(call, {&i, 1}, s.alone, s.group, s);
         });
@@ -302,6 +341,11 @@ void list_lone_robots(const StepCall& call, Impl& s) {
             list(Unit::Kind::kLanes, first);
             batch.clear();
         },
+        [&](std::span<const std::uint32_t> some) {
+            const std::size_t first = s.lone.size();
+            s.lone.insert(s.lone.end(), some.begin(), some.end());
+            list(Unit::Kind::kRough, first);
+        },
         [&](std::uint32_t i) {
             s.lone.push_back(i);
             list(Unit::Kind::kAlone, s.lone.size() - 1);
@@ -311,6 +355,7 @@ void list_lone_robots(const StepCall& call, Impl& s) {
 void step_unit(const StepCall& call, const Unit& unit, Helper& helper, Impl& s) {
     if (unit.kind == Unit::Kind::kGroup) return step_sets(call, unit, helper.works, helper.group, s);
     const std::span robots = std::span(s.lone).subspan(unit.first, unit.last - unit.first);
+    if (unit.kind == Unit::Kind::kRough) return step_rough(call, robots, helper.works, helper.group, s);
     if (unit.kind == Unit::Kind::kAlone) {
         for (const std::uint32_t i : robots) step_group(call, {&i, 1}, helper.alone, helper.group, s);
         return;
@@ -345,8 +390,8 @@ std::size_t sort_units(std::size_t all, Impl& s) {
     const Team& team = s.group.team;
     const auto is_large = [&](const Unit& unit) {
         const bool one = unit.kind == Unit::Kind::kGroup || unit.last - unit.first == 1;
-        return unit.kind != Unit::Kind::kLanes && one && unit.weight >= kTeamFrom &&
-               unit.weight * team.size() > all;
+        return unit.kind != Unit::Kind::kLanes && unit.kind != Unit::Kind::kRough && one &&
+               unit.weight >= kTeamFrom && unit.weight * team.size() > all;
     };
     const auto first_other = std::partition(s.units.begin(), s.units.end(), is_large);
     const std::span<Unit> others(first_other, s.units.end());

@@ -7,8 +7,9 @@
 namespace roboss {
 namespace {
 
-bool same_point(const Contact& a, const Contact& b) {
-    return a.shape_a == b.shape_a && a.shape_b == b.shape_b && a.feature == b.feature;
+/// Where on the shapes they touch is a matter of each lane.
+bool same_pair(const Contact& a, const Contact& b) {
+    return a.shape_a == b.shape_a && a.shape_b == b.shape_b;
 }
 
 unsigned bit(std::size_t lane) {
@@ -81,7 +82,7 @@ unsigned LaneContacts::alike(const Model& model, const RobotType& type, unsigned
         const auto first = static_cast<std::size_t>(std::countr_zero(unseen));
         unsigned like_first = 0;
         for (std::size_t lane = first; lane < spans_.size(); ++lane)
-            if ((unseen & bit(lane)) != 0 && std::ranges::equal(spans_[lane], spans_[first], same_point))
+            if ((unseen & bit(lane)) != 0 && std::ranges::equal(spans_[lane], spans_[first], same_pair))
                 like_first |= bit(lane);
         unseen &= ~like_first;
         const bool plain = std::ranges::all_of(spans_[first], plain_contact);
