@@ -1,7 +1,7 @@
 """Camera and RobotCameras: pictures of a simulation without a browser, and what rays meet."""
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, Callable, Optional, Union
+from typing import TYPE_CHECKING, Any, Callable, Optional
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -11,9 +11,8 @@ from .errors import ArgumentError
 from .names import filled, listed, real, whole
 
 if TYPE_CHECKING:
-    from .remote import RemoteSimulation
     from .robots import Robots
-    from .simulation import Simulation
+    from .run import Run
 
 Floats = NDArray[np.float64]
 Lens = tuple[int, int, float, float]
@@ -36,7 +35,7 @@ class Camera:
     18.6
     """
 
-    def __init__(self, simulation: Union[Simulation, RemoteSimulation], position: ArrayLike, target: ArrayLike,
+    def __init__(self, simulation: Run, position: ArrayLike, target: ArrayLike,
                  size: tuple[int, int], fov: float, far: float):
         self.position, self.target = filled("position", position, (3,)), filled("target", target, (3,))
         self._simulation, self._lens = simulation, _lens_of(size, fov, far)
@@ -96,7 +95,7 @@ class RobotCameras:
         """What they see, (N, rows, columns, 3): red, green, blue."""
         return self._each(lambda simulation, eyes, turns: _pictures(simulation, eyes, turns @ self._axes, self._lens))
 
-    def _cast(self, simulation: Simulation, eyes: Floats, turns: Floats) -> tuple[Floats, NDArray[np.int32]]:
+    def _cast(self, simulation: Run, eyes: Floats, turns: Floats) -> tuple[Floats, NDArray[np.int32]]:
         rays = np.einsum("nij,rcj->nrci", turns, self._rays)
         return _cast(simulation, eyes[:, None, None], rays, self._lens[3], _threads_of(self._robots.simulation))
 

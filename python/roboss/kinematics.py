@@ -107,7 +107,7 @@ class RobotModel:
     @property
     def free_base(self) -> bool:
         """Whether nothing fixes the robot to the world; then q begins with a pose, and v with a twist."""
-        return self._facts.free_base
+        return bool(self._facts.free_base)
 
     @property
     def q_columns(self) -> int:

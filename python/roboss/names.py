@@ -5,7 +5,7 @@ import difflib
 import math
 import operator
 import os
-from typing import Any, Iterable, TypeVar
+from typing import Any, Iterable, Optional, TypeVar, Union
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -33,7 +33,7 @@ def index_of(kind: str, name: str, known: list[str], where: str = "") -> int:
         raise unknown(kind, name, known, where) from None
 
 
-def numbers(what: str, values: ArrayLike) -> NDArray[np.float64]:
+def numbers(what: str, values: Optional[ArrayLike]) -> NDArray[np.float64]:
     """The values as an array of doubles."""
     try:
         return np.asarray(values, dtype=np.float64)
@@ -97,9 +97,9 @@ def listed(what: str, values: Iterable[_T]) -> list[_T]:
     return list(values)
 
 
-def names_of(what: str, values: object) -> list[str]:
+def names_of(what: str, values: Union[str, Iterable[str]]) -> list[str]:
     """A text as a list of itself, or a list of texts. Raises ArgumentError for other types."""
-    return [values] if isinstance(values, str) else [text(what, name) for name in listed(what, values)]  # type: ignore[arg-type]
+    return [values] if isinstance(values, str) else [text(what, name) for name in listed(what, values)]
 
 
 def filled(what: str, values: ArrayLike, shape: tuple[int, ...]) -> NDArray[np.float64]:

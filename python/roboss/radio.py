@@ -5,7 +5,7 @@ from typing import NamedTuple, Optional, Sequence, Union
 
 from . import _core
 from .errors import ArgumentError
-from .names import instance, listed, text
+from .names import listed, text
 from .sensors import Sensor
 
 Payload = Union[bytes, bytearray, memoryview, str]
@@ -73,4 +73,6 @@ class Radio(Sensor):
 def _bytes_of(payload: object) -> bytes:
     if isinstance(payload, str):
         return payload.encode()
-    return bytes(instance("payload", payload, (bytes, bytearray, memoryview), "give bytes or a text"))
+    if not isinstance(payload, (bytes, bytearray, memoryview)):
+        raise ArgumentError(f"payload: a value of type '{type(payload).__name__}'", "give bytes or a text", "bad-type")
+    return bytes(payload)

@@ -16,7 +16,7 @@ from .sensors import Sensor
 
 if TYPE_CHECKING:
     from .batch import Batch
-    from .simulation import Simulation
+    from .run import Run
     from .world import TypeFacts
 
 Floats = NDArray[np.float64]
@@ -59,8 +59,8 @@ class Robots:
     (array([5., 5., 5., 5.]), array([1., 2., 1., 2.]))
     """
 
-    def __init__(self, simulation: Union[Simulation, Batch], ids: Sequence[int]):
-        self.simulation: Union[Simulation, Batch] = simulation  #: that they are in
+    def __init__(self, simulation: Union[Run, Batch], ids: Sequence[int]):
+        self.simulation: Any = simulation  #: that they are in: a Simulation, Batch or RemoteSimulation
         self.ids: tuple[int, ...] = tuple(ids)  #: their places in World.robots
         self._world, self._simulations = simulation.world, simulation._simulations  # both stay when robots come or go
         self._core = _core.robots(self._simulations, list(ids))

@@ -152,8 +152,8 @@ def load(source: Union[str, os.PathLike], *, search_paths: Iterable[Union[str, o
     errors = [finding for finding in findings if finding.severity == "error"]
     if model is None or (strict and errors):
         file = "the text" if is_text else f"'{source}'"
-        text = "\n".join(str(error) for error in errors)
-        raise WorldError(f"the world of {file} cannot be used:\n{text}", code=errors[0].code if errors else "",
+        listing = "\n".join(str(error) for error in errors)
+        raise WorldError(f"the world of {file} cannot be used:\n{listing}", code=errors[0].code if errors else "",
                          diagnostics=tuple(findings))
     for finding in findings:
         if finding.severity != "note":
