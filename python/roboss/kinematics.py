@@ -72,7 +72,8 @@ class RobotModel:
         world: a World, or what `load` takes. `load(..., fixed_base=[name])` welds the base of a URDF to the world.
         robot: name of the robot; None: the only one of the world.
         cut_loops: leave out the joints that close loops (`cut_joints`); the rest moves freely.
-        base_pose: where the robot frame of a fixed base stands in the world, (7,); None: as in the file.
+        base_pose: where the robot frame of a fixed base stands in the world, (7,): x y z in m, quaternion x y z w; None: as
+            in the file.
 
     >>> arm = roboss.RobotModel(roboss.example("arm.sdf"), "arm")
     >>> arm.joints
@@ -178,7 +179,7 @@ class RobotModel:
         Args:
             q: (..., q_columns).
             link: name of a link, or one of `frames`.
-            tool: pose (7,) of a tool in the link's frame; then the result is the tool's.
+            tool: pose (7,) of a tool in the link's frame, x y z in m, quaternion x y z w; then the result is the tool's.
 
         >>> arm = roboss.RobotModel(roboss.example("arm.sdf"), "arm")
         >>> arm.link_pose([0, 0, 0, 0, 0, 0], "tool").round(3)
@@ -237,7 +238,7 @@ class RobotModel:
         follow others do so.
 
         Args:
-            target: (..., 7): poses in the world, x y z in m and quaternion x y z w.
+            target: (..., 7): poses in the world, x y z in m, quaternion x y z w.
             link, tool: what is to be there, as of link_pose.
             start: (..., q_columns); None: the start of the world.
             weights: (6,) of the errors along x y z (m) and about them (rad); 0: does not matter. [1, 1, 1, 0, 0, 0]

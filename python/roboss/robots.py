@@ -253,7 +253,7 @@ class Robots:
         return MujocoOrder._of(self._facts)
 
     def link_pose(self, link: str) -> Floats:
-        """Poses of a link's frame in the world, (N, 7), as `pose`."""
+        """Poses of a link's frame in the world, (N, 7), as `pose`: x y z in m, unit quaternion x y z w."""
         return self._read(self._core.link_poses, 7, self._link(link))
 
     def link_twist(self, link: str) -> Floats:

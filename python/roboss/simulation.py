@@ -3,7 +3,7 @@ from __future__ import annotations
 
 import os
 import warnings
-from typing import Iterable, Optional, Sequence, Union
+from typing import Iterable, Optional, Self, Sequence, Union
 
 from numpy.typing import ArrayLike
 
@@ -55,7 +55,7 @@ class Simulation(Run):
         self._take(_core.Simulation(self.world._model, threads_or_all(threads), whole("seed", seed)))
 
     @classmethod
-    def _of(cls, world: World, core: _core.Simulation) -> Simulation:
+    def _of(cls, world: World, core: _core.Simulation) -> Self:
         """The simulation of a world that is there already."""
         simulation = cls.__new__(cls)
         simulation.world = world
