@@ -10,7 +10,7 @@ from typing import Any, Optional, Sequence, Union
 from numpy.typing import ArrayLike
 
 from .errors import ArgumentError
-from .names import unknown
+from .names import file_path, flag, real, unknown
 from .outputs import check_output
 from .sdf_elements import checked_name, positive, put, put_pose, rgba, unit_vector, vector
 from .shapes import Shape, box, capsule, cylinder, plane, sphere
@@ -68,7 +68,7 @@ class WorldBuilder:
         Raises:
             ArgumentError: there is no such file, or the name is taken. What the file says is checked by `build`.
         """
-        path = Path(file).expanduser().resolve()
+        path = Path(file_path("file", file)).expanduser().resolve()
         if not path.is_file():
             raise ArgumentError(f"model '{name}': there is no file '{path}'", "give the path of an SDFormat or URDF file",
                                 "no-file")
@@ -76,14 +76,14 @@ class WorldBuilder:
         put(include, "name", self._new("model", name))
         put(include, "uri", path.as_uri())
         put_pose(include, f"model '{name}'", pose)
-        if static:
+        if flag("static", static):
             put(include, "static", "true")
 
     def model(self, name: str, *, pose: ArrayLike = (0, 0, 0), static: bool = False) -> ModelBuilder:
         """Adds an empty model, whose links and joints the result adds. `pose`: of its frame in the world."""
         element = ET.SubElement(self._world, "model", name=self._new("model", name))
         put_pose(element, f"model '{name}'", pose)
-        if static:
+        if flag("static", static):
             put(element, "static", "true")
         return ModelBuilder(element, name, static)
 
@@ -247,7 +247,7 @@ class ModelBuilder:
         for number in range(JOINT_AXES[kind], 2):
             if given[number] is not None:
                 raise ArgumentError(f"{where}: a {kind} joint has no {'axis2' if number else 'axis'}", "leave it out")
-        if not lower <= upper:
+        if not real(f"{where}: lower", lower) <= real(f"{where}: upper", upper):
             raise ArgumentError(f"{where}: limits from {lower} to {upper}", "the lower one comes first")
         element = ET.Element("joint", name=name, type=kind)
         put(element, "parent", parent)
@@ -285,12 +285,10 @@ def _put_axis(joint: Element, where: str, tag: str, direction: Sequence[float], 
     put(axis, "xyz", unit_vector(f"{where}: {tag}", direction))
     limit = ET.SubElement(axis, "limit")
     for name, value in limits.items():
-        if math.isnan(value):
-            raise ArgumentError(f"{where}: {name} is no number", "give a number")
-        if math.isfinite(value):
+        if math.isfinite(real(f"{where}: {name}", value)):
             put(limit, name, value)
     place = ET.SubElement(axis, "dynamics")
     for name, value in dynamics.items():
-        if not (math.isfinite(value) and value >= 0):
-            raise ArgumentError(f"{where}: {name} of {value}", "give 0 or more")
+        if not math.isfinite(real(f"{where}: {name}", value, 0)):
+            raise ArgumentError(f"{where}: {name} of {value}", "give a finite number")
         put(place, name, value)

@@ -1,21 +1,21 @@
 """Camera and RobotCameras: pictures of a simulation without a browser, and what rays meet."""
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, Callable, Optional, Union
+from typing import TYPE_CHECKING, Any, Callable, Optional
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _core
 from .errors import ArgumentError
-from .names import filled
+from .names import filled, listed, real, whole
 
 if TYPE_CHECKING:
-    from .remote import RemoteSimulation
     from .robots import Robots
-    from .simulation import Simulation
+    from .run import Run
 
 Floats = NDArray[np.float64]
+Lens = tuple[int, int, float, float]
 
 
 class Camera:
@@ -35,11 +35,11 @@ class Camera:
     18.6
     """
 
-    def __init__(self, simulation: Union[Simulation, RemoteSimulation], position: ArrayLike, target: ArrayLike,
+    def __init__(self, simulation: Run, position: ArrayLike, target: ArrayLike,
                  size: tuple[int, int], fov: float, far: float):
         self.position, self.target = filled("position", position, (3,)), filled("target", target, (3,))
-        self._simulation, self._plane = simulation, _plane_of(size, fov, far)
-        self._lens = (*size, fov, far)
+        self._simulation, self._lens = simulation, _lens_of(size, fov, far)
+        self._plane = _plane_of(self._lens)
 
     def depth(self) -> Floats:
         """Distance along each ray in m, (rows, columns); infinite where there is nothing within `far`."""
@@ -78,10 +78,10 @@ class RobotCameras:
 
     def __init__(self, robots: Robots, position: ArrayLike, target: ArrayLike, link: Optional[str], size: tuple[int, int],
                  fov: float, far: float):
-        self._robots, self._link, self._lens = robots, link, (*size, fov, far)
+        self._robots, self._link, self._lens = robots, link, _lens_of(size, fov, far)
         self._position = filled("position", position, (3,))
         self._axes = _axes_of(self._position, filled("target", target, (3,)))
-        self._rays = _rays_of(_plane_of(size, fov, far), self._axes)
+        self._rays = _rays_of(_plane_of(self._lens), self._axes)
 
     def depth(self) -> Floats:
         """Distance along each ray in m, (N, rows, columns); infinite where there is nothing within `far`."""
@@ -95,7 +95,7 @@ class RobotCameras:
         """What they see, (N, rows, columns, 3): red, green, blue."""
         return self._each(lambda simulation, eyes, turns: _pictures(simulation, eyes, turns @ self._axes, self._lens))
 
-    def _cast(self, simulation: Simulation, eyes: Floats, turns: Floats) -> tuple[Floats, NDArray[np.int32]]:
+    def _cast(self, simulation: Run, eyes: Floats, turns: Floats) -> tuple[Floats, NDArray[np.int32]]:
         rays = np.einsum("nij,rcj->nrci", turns, self._rays)
         return _cast(simulation, eyes[:, None, None], rays, self._lens[3], _threads_of(self._robots.simulation))
 
@@ -111,12 +111,19 @@ class RobotCameras:
         return np.stack(seen) if robots.simulation._shape else seen[0]
 
 
-def _plane_of(size: tuple[int, int], fov: float, far: float) -> Floats:
-    """Where the ray of each pixel meets a plane 1 m in front: right and up, (rows, columns, 2)."""
-    if not (len(size) == 2 and min(size) > 0 and 0 < fov < np.pi and far > 0):
+def _lens_of(size: tuple[int, int], fov: float, far: float) -> Lens:
+    """Columns, rows, angle across, reach: checked."""
+    columns, rows = listed("size", size) if np.size(size) == 2 else (0, 0)
+    lens = whole("size", columns), whole("size", rows), real("fov", fov), real("far", far)
+    if not (lens[0] > 0 and lens[1] > 0 and 0 < lens[2] < np.pi and lens[3] > 0):
         raise ArgumentError(f"a camera of size {size}, fov {fov} and far {far}",
                             "give columns and rows above 0, an angle between 0 and pi, and a distance above 0")
-    columns, rows = size
+    return lens
+
+
+def _plane_of(lens: Lens) -> Floats:
+    """Where the ray of each pixel meets a plane 1 m in front: right and up, (rows, columns, 2)."""
+    columns, rows, fov, far = lens
     across = np.tan(fov / 2) * (np.arange(columns) - (columns - 1) / 2) * 2 / columns
     upwards = -np.tan(fov / 2) * (np.arange(rows) - (rows - 1) / 2) * 2 / columns
     return np.stack(np.broadcast_arrays(across[None, :], upwards[:, None]), axis=-1)
@@ -162,7 +169,7 @@ def _threads_of(simulation: Any) -> int:
     return getattr(simulation._core, "threads", 1)
 
 
-def _pictures(simulation: Any, eyes: Floats, axes: Floats, lens: tuple[int, int, float, float]) -> NDArray[np.uint8]:
+def _pictures(simulation: Any, eyes: Floats, axes: Floats, lens: Lens) -> NDArray[np.uint8]:
     """Colours of the visuals, (N, rows, columns, 3), seen from `eyes` (N, 3) along the columns of `axes` (N, 3, 3)."""
     columns, rows, fov, far = lens
     places = np.concatenate([eyes, np.swapaxes(axes, 1, 2).reshape(-1, 9)], axis=1)

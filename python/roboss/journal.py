@@ -6,7 +6,7 @@ from typing import Iterable, Iterator, Optional, Union
 
 from . import _core
 from .errors import JournalError, StateError
-from .names import real
+from .names import file_path, flag, real
 from .simulation import Simulation, threads_or_all
 from .world import World
 
@@ -26,7 +26,7 @@ class Journal:
     """
 
     def __init__(self, path: Union[str, os.PathLike]):
-        self.path: str = os.fspath(path)  #: of the file
+        self.path: str = file_path("path", path)  #: of the file
         self._core = _core.open_journal(self.path)
         self._worlds: dict[int, World] = {}
 
@@ -80,7 +80,7 @@ class Journal:
             raise JournalError(f"branch {found.id} of '{self.path}' has nothing committed at {time:g} s",
                                f"give a time up to {parts[-1][2] * dt:g} s", "no-such-time")
         at = next(number for number, part in enumerate(parts) if part[0] == holder)
-        core = self._part(parts[at], tick, follow, threads_or_all(threads))
+        core = self._part(parts[at], tick, flag("follow", follow), threads_or_all(threads))
         return _Replay._at(self, core, holder, parts[at + 1:] if follow else [])
 
     def play(self, times: Iterable[float], branch: Optional[int] = None) -> Iterator[Simulation]:
@@ -91,6 +91,7 @@ class Journal:
         """
         sim = None
         for time in times:
+            time = real("times", time)
             if sim is None or round(time / sim.dt) < sim.tick or round(time / sim.dt) > round(self.times(branch)[1] / sim.dt):
                 sim = self.at(time, branch)
             sim.step(round(time / sim.dt) - sim.tick)

@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from . import _core
 from .errors import ArgumentError
-from .names import index_of, numbers, unknown
+from .names import flag, index_of, names_of, numbers, real, unknown, whole
 from .robots import Floats, Robots
 from .world import World, load
 
@@ -72,7 +72,8 @@ class RobotModel:
         world: a World, or what `load` takes. `load(..., fixed_base=[name])` welds the base of a URDF to the world.
         robot: name of the robot; None: the only one of the world.
         cut_loops: leave out the joints that close loops (`cut_joints`); the rest moves freely.
-        base_pose: where the robot frame of a fixed base stands in the world, (7,); None: as in the file.
+        base_pose: where the robot frame of a fixed base stands in the world, (7,): x y z in m, quaternion x y z w; None: as
+            in the file.
 
     >>> arm = roboss.RobotModel(roboss.example("arm.sdf"), "arm")
     >>> arm.joints
@@ -94,7 +95,7 @@ class RobotModel:
         base = None if base_pose is None else _rows("base_pose", base_pose, 7).reshape(7)
         if base is not None and self._facts.free_base:
             raise ArgumentError(f"a base_pose of '{self.name}', whose base is free", "give its pose in q", "free-base")
-        self._core = _core.robot_model(self.world._model, number, cut_loops, base)
+        self._core = _core.robot_model(self.world._model, number, flag("cut_loops", cut_loops), base)
         self._columns = self._core.columns
         frames = self.world._frames[number] if self.world._frames else []
         self._frames = {name: (link, np.array(pose)) for name, link, pose in frames if name not in self._facts.links}
@@ -107,7 +108,7 @@ class RobotModel:
     @property
     def free_base(self) -> bool:
         """Whether nothing fixes the robot to the world; then q begins with a pose, and v with a twist."""
-        return self._facts.free_base
+        return bool(self._facts.free_base)
 
     @property
     def q_columns(self) -> int:
@@ -178,7 +179,7 @@ class RobotModel:
         Args:
             q: (..., q_columns).
             link: name of a link, or one of `frames`.
-            tool: pose (7,) of a tool in the link's frame; then the result is the tool's.
+            tool: pose (7,) of a tool in the link's frame, x y z in m, quaternion x y z w; then the result is the tool's.
 
         >>> arm = roboss.RobotModel(roboss.example("arm.sdf"), "arm")
         >>> arm.link_pose([0, 0, 0, 0, 0, 0], "tool").round(3)
@@ -237,7 +238,7 @@ class RobotModel:
         follow others do so.
 
         Args:
-            target: (..., 7): poses in the world, x y z in m and quaternion x y z w.
+            target: (..., 7): poses in the world, x y z in m, quaternion x y z w.
             link, tool: what is to be there, as of link_pose.
             start: (..., q_columns); None: the start of the world.
             weights: (6,) of the errors along x y z (m) and about them (rad); 0: does not matter. [1, 1, 1, 0, 0, 0]
@@ -257,9 +258,10 @@ class RobotModel:
         >>> bool(found.success), arm.link_pose(found.q, "tool").round(6)[:3]
         (True, array([0.4, 0.2, 0.6]))
         """
-        if not tolerance > 0 or iterations < 1 or attempts < 1 or seed < 0:
-            raise ArgumentError(f"tolerance {tolerance}, iterations {iterations}, attempts {attempts}, seed {seed}",
-                                "give a tolerance above 0, 1 or more iterations and attempts, a seed of 0 or more")
+        if not real("tolerance", tolerance) > 0:
+            raise ArgumentError(f"tolerance: {tolerance}", "give a number above 0", "bad-value")
+        options = dict(tolerance=float(tolerance), iterations=whole("iterations", iterations, 1, 2**31 - 1),
+                       attempts=whole("attempts", attempts, 1, 2**31 - 1), seed=whole("seed", seed), path=flag("path", path))
         weights = _rows("weights", weights, 6).reshape(6)
         if np.any(weights < 0) or not np.any(weights):
             raise ArgumentError(f"weights {weights}", "give 0 or more for each axis, and more than 0 for some")
@@ -267,7 +269,6 @@ class RobotModel:
         start = self._q("start", self.start if start is None else start)
         target, start = _broadcast(target=target, start=start)
         q, report = np.empty_like(start), np.empty((*target.shape[:-1], 5))
-        options = dict(tolerance=tolerance, iterations=iterations, attempts=attempts, seed=seed, path=path)
         self._core.inverse_kinematics(*self._place(link, tool), list(weights), _in_tool(axes), options,
                                       self._moving(joints), target, start, q, report)
         return IKSolution(q, report[..., 0] != 0, report[..., 1], report[..., 2], report[..., 3].astype(np.int64),
@@ -360,7 +361,7 @@ class RobotModel:
         if joints is None:
             return []
         chosen = {index_of("joint", name, list(self.joints), f" of '{self.name}'")
-                  for name in ([joints] if isinstance(joints, str) else joints)}
+                  for name in names_of("joints", joints)}
         return [column in chosen for column in range(len(self._columns))]
 
     def _gravity(self, gravity: Optional[ArrayLike]) -> Floats:

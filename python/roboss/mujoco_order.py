@@ -7,6 +7,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from .errors import ArgumentError
+from .names import numbers
 
 if TYPE_CHECKING:
     from .kinematics import RobotModel
@@ -111,7 +112,7 @@ class MujocoOrder:
 
     @staticmethod
     def _array(name: str, values: ArrayLike, columns: int) -> Floats:
-        array = np.asarray(values, dtype=np.float64)
+        array = numbers(name, values)
         if array.ndim == 0 or array.shape[-1] != columns:
             raise ArgumentError(f"{name} of shape {array.shape}", f"give (..., {columns})")
         return array

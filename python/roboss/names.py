@@ -4,7 +4,8 @@ from __future__ import annotations
 import difflib
 import math
 import operator
-from typing import Any, Iterable
+import os
+from typing import Any, Iterable, Optional, TypeVar, Union
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -12,6 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 from .errors import ArgumentError, UnknownNameError
 
 _MOST = 12
+_T = TypeVar("_T")
 
 
 def unknown(kind: str, name: object, known: Iterable[str], where: str = "") -> UnknownNameError:
@@ -31,7 +33,7 @@ def index_of(kind: str, name: str, known: list[str], where: str = "") -> int:
         raise unknown(kind, name, known, where) from None
 
 
-def numbers(what: str, values: ArrayLike) -> NDArray[np.float64]:
+def numbers(what: str, values: Optional[ArrayLike]) -> NDArray[np.float64]:
     """The values as an array of doubles."""
     try:
         return np.asarray(values, dtype=np.float64)
@@ -64,11 +66,40 @@ def real(what: str, value: Any, least: float = -math.inf) -> float:
     return number
 
 
-def instance(what: str, value: Any, kind: type, remedy: str) -> Any:
+def instance(what: str, value: object, kind: type[_T], remedy: str) -> _T:
     """The value. Raises ArgumentError if it is not of this type."""
     if not isinstance(value, kind):
         raise ArgumentError(f"{what}: a value of type '{type(value).__name__}'", remedy, "bad-type")
     return value
+
+
+def text(what: str, value: object) -> str:
+    """The value, a text. Raises ArgumentError for another type."""
+    return instance(what, value, str, "give a text (str)")
+
+
+def flag(what: str, value: object) -> bool:
+    """The value as a bool; numpy's will do. Raises ArgumentError for another type."""
+    if not isinstance(value, (bool, np.bool_)):
+        raise ArgumentError(f"{what}: {value!r} is neither True nor False", "give a bool", "bad-type")
+    return bool(value)
+
+
+def file_path(what: str, value: object) -> str:
+    """The path of a file, or its text, as a str. Raises ArgumentError for another type."""
+    return text(what, os.fspath(value) if isinstance(value, os.PathLike) else value)
+
+
+def listed(what: str, values: Iterable[_T]) -> list[_T]:
+    """The values as a list. Raises ArgumentError for a lone text, and for what cannot be gone through."""
+    if isinstance(values, (str, bytes)) or not hasattr(values, "__iter__"):
+        raise ArgumentError(f"{what}: {values!r} is no list", "give a list or tuple", "bad-type")
+    return list(values)
+
+
+def names_of(what: str, values: Union[str, Iterable[str]]) -> list[str]:
+    """A text as a list of itself, or a list of texts. Raises ArgumentError for other types."""
+    return [values] if isinstance(values, str) else [text(what, name) for name in listed(what, values)]
 
 
 def filled(what: str, values: ArrayLike, shape: tuple[int, ...]) -> NDArray[np.float64]:

@@ -6,6 +6,7 @@ from pathlib import Path
 from typing import Iterable, Optional, Union
 
 from . import _core
+from .names import file_path
 
 _Path = Union[str, os.PathLike]
 #: Kinds of files by the endings of their names.
@@ -22,6 +23,7 @@ def check_output(path: _Path, kind: Optional[str] = None, reads: Iterable[object
     Raises:
         ArgumentError: codes "output-is-input", "other-kind".
     """
+    path = file_path("path", path)
     kind = kind or KINDS.get(Path(path).suffix.lower())
     if kind is not None:
-        _core.check_output(os.fspath(path), kind, [os.fspath(read) for read in reads if isinstance(read, (str, os.PathLike))])
+        _core.check_output(path, kind, [os.fspath(read) for read in reads if isinstance(read, (str, os.PathLike))])

@@ -5,6 +5,7 @@ from typing import NamedTuple, Optional, Sequence, Union
 
 from . import _core
 from .errors import ArgumentError
+from .names import listed, text
 from .sensors import Sensor
 
 Payload = Union[bytes, bytearray, memoryview, str]
@@ -47,15 +48,17 @@ class Radio(Sensor):
         [[], [b'hello'], [b'hello'], []]
         """
         rows = len(self.robots) * len(self.robots._simulations)
-        payloads = [payload] * rows if isinstance(payload, (bytes, bytearray, memoryview, str)) else list(payload)
-        names = [to] * rows if to is None or isinstance(to, str) else list(to)
+        is_one = isinstance(payload, (bytes, bytearray, memoryview, str))
+        payloads = [payload] * rows if is_one else listed("payload", payload)
+        names = [to] * rows if to is None or isinstance(to, str) else listed("to", to)
         for what, values in (("payloads", payloads), ("addressees", names)):
             if len(values) != rows:
                 raise ArgumentError(f"{len(values)} {what} for {rows} robots", "give one for each, or one for all")
+        addressees = ["" if name is None else text("to", name) for name in names]
         if any(name == "" for name in names):
             raise ArgumentError("an addressee with an empty name", "give None for everybody")
-        as_bytes = [p.encode() if isinstance(p, str) else bytes(p) for p in payloads]
-        _core.transmit(self.robots._simulations, list(self.robots.ids), self._numbers, as_bytes, [n or "" for n in names])
+        as_bytes = [_bytes_of(p) for p in payloads]
+        _core.transmit(self.robots._simulations, list(self.robots.ids), self._numbers, as_bytes, addressees)
 
     def receive(self) -> list[list[Message]]:
         """For each robot the messages that arrived since the last call, or since the run began, by time of arrival.
@@ -65,3 +68,11 @@ class Radio(Sensor):
         """
         heard = _core.received(self.robots._simulations, list(self.robots.ids), self._numbers)
         return [[Message(sender, to or None, *rest) for sender, to, *rest in row] for row in heard]
+
+
+def _bytes_of(payload: object) -> bytes:
+    if isinstance(payload, str):
+        return payload.encode()
+    if not isinstance(payload, (bytes, bytearray, memoryview)):
+        raise ArgumentError(f"payload: a value of type '{type(payload).__name__}'", "give bytes or a text", "bad-type")
+    return bytes(payload)

@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike
 
 from . import _core
 from .errors import ArgumentError, StateError
-from .names import filled, real, whole
+from .names import file_path, filled, flag, listed, names_of, real, text, whole
 from .robots import Robots
 from .run import Run
 from .world import World
@@ -44,8 +44,9 @@ def connect(simulation: str = "default", *, name: str = "python", period: int = 
         ArgumentError: a period or latency that cannot be.
     """
     period, latency = whole("period", period, 1), whole("latency", latency)
-    core = _core.connect(simulation, name, period, latency, real("patience", patience, 0), interface,
-                         whole("domain", domain, 0, 232), list(peers), discovery_server)
+    core = _core.connect(text("simulation", simulation), text("name", name), period, latency,
+                         real("patience", patience, 0), text("interface", interface), whole("domain", domain, 0, 232),
+                         names_of("peers", listed("peers", peers)), text("discovery_server", discovery_server))
     return RemoteSimulation(core, f"<simulation '{simulation}'>")
 
 
@@ -109,7 +110,7 @@ class RemoteSimulation(Run):
         Raises:
             ClusterError: the run refuses it: no folder, the file exists (code "file-exists") ...
         """
-        return self._core.control(["save", file, *(["overwrite"] if overwrite else [])])
+        return self._core.control(["save", text("file", file), *(["overwrite"] if flag("overwrite", overwrite) else [])])
 
     def restore(self) -> None:
         """Back to the last `save` of the run, or to the file that it was started from (`--from`).
@@ -135,13 +136,13 @@ class RemoteSimulation(Run):
         """
         if isinstance(source, World):
             raise ArgumentError("a World cannot be sent to a run", "give the path or the text of its file", "no-text")
-        source = os.fspath(source)
+        source = file_path("source", source)
         is_text = source.lstrip().startswith("<")
         content = source if is_text else Path(source).read_text(encoding="utf-8")
-        names = [""] if name is None else [name] if isinstance(name, str) else list(name)
+        names = [""] if name is None else names_of("name", name)
         before = set(self.world.robots)
         self._change(self._core.add, "<text>" if is_text else source, content, names,
-                     filled("pose", pose, (len(names), 7)).tolist(), on_ground)
+                     filled("pose", pose, (len(names), 7)).tolist(), flag("on_ground", on_ground))
         return self.robots([robot for robot in self.world.robots if robot not in before])
 
     def remove(self, robots: Union[str, Iterable[str], Robots]) -> None:
@@ -165,7 +166,7 @@ class RemoteSimulation(Run):
 
         Raises ClusterError if it is refused, ArgumentError if there is no such request.
         """
-        return self._core.control(list(words))
+        return self._core.control([text("words", word) for word in words])
 
     def status(self) -> dict[str, Any]:
         """The run as `roboss control status` tells it: members, islands, windows, losses ..."""

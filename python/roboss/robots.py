@@ -1,7 +1,7 @@
 """Robots: some robots of a simulation as arrays, robots the first axis."""
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Callable, Iterable, Optional, Sequence, Union
+from typing import TYPE_CHECKING, Any, Callable, Iterable, Optional, Sequence, Union, overload
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -10,16 +10,17 @@ from . import _core
 from .camera import RobotCameras
 from .errors import ArgumentError, StateError, UnknownNameError
 from .mujoco_order import MujocoOrder
-from .names import filled, index_of, numbers, real, unknown, whole
+from .names import filled, index_of, names_of, numbers, real, text, unknown, whole
 from .radio import Radio
 from .sensors import Sensor
 
 if TYPE_CHECKING:
     from .batch import Batch
-    from .simulation import Simulation
+    from .run import Run
     from .world import TypeFacts
 
 Floats = NDArray[np.float64]
+Rows = Union[int, slice, Sequence[int], NDArray[Any]]  # some robots: their rows, or a mask
 _MODES = ["passive", "velocity", "position", "effort"]  # in the order of MotorMode
 
 
@@ -58,8 +59,8 @@ class Robots:
     (array([5., 5., 5., 5.]), array([1., 2., 1., 2.]))
     """
 
-    def __init__(self, simulation: Union[Simulation, Batch], ids: Sequence[int]):
-        self.simulation: Union[Simulation, Batch] = simulation  #: that they are in
+    def __init__(self, simulation: Union[Run, Batch], ids: Sequence[int]):
+        self.simulation: Any = simulation  #: that they are in: a Simulation, Batch or RemoteSimulation
         self.ids: tuple[int, ...] = tuple(ids)  #: their places in World.robots
         self._world, self._simulations = simulation.world, simulation._simulations  # both stay when robots come or go
         self._core = _core.robots(self._simulations, list(ids))
@@ -252,7 +253,7 @@ class Robots:
         return MujocoOrder._of(self._facts)
 
     def link_pose(self, link: str) -> Floats:
-        """Poses of a link's frame in the world, (N, 7), as `pose`."""
+        """Poses of a link's frame in the world, (N, 7), as `pose`: x y z in m, unit quaternion x y z w."""
         return self._read(self._core.link_poses, 7, self._link(link))
 
     def link_twist(self, link: str) -> Floats:
@@ -296,7 +297,7 @@ class Robots:
         array([ 8., 10.])
         """
         facts = self._joint_facts
-        names = facts.axes if joints is None else [joints] if isinstance(joints, str) else list(joints)
+        names = facts.axes if joints is None else names_of("joints", joints)
         columns = [self._number("joint", name, facts.axes, lambda own: own.axes) for name in names]
         if mode not in _MODES:
             raise unknown("motor mode", mode, _MODES)
@@ -335,7 +336,7 @@ class Robots:
         array([[5.6, 7.7]])
         """
         commands = self._facts.commands
-        number = self._command(name)
+        number = self._command(text("name", name))
         fields, is_list = [field for field, _ in commands[number][1]], commands[number][2]
         if is_list:
             table = numbers(f"command '{name}'", values).ravel()
@@ -363,10 +364,21 @@ class Robots:
             self._link(link)
         return RobotCameras(self, position, target, link, size, fov, far)
 
-    def __getitem__(self, key: Union[str, int, slice, NDArray]) -> Union[Sensor, Robots]:
+    @overload
+    def __getitem__(self, key: str) -> Sensor: ...
+    @overload
+    def __getitem__(self, key: Rows) -> Robots: ...
+    def __getitem__(self, key: Union[str, Rows]) -> Union[Sensor, Robots]:
         if isinstance(key, str):
             return self._sensor(self._number("sensor", key, self.sensors, lambda own: [sensor[0] for sensor in own.sensors]))
-        chosen = np.atleast_1d(np.asarray(self.ids)[key])
+        try:
+            chosen = np.atleast_1d(np.asarray(self.ids, dtype=np.int64)[key])
+        except IndexError as error:
+            if isinstance(key, (int, np.integer)):
+                raise  # it ends loops over the robots
+            raise ArgumentError(f"robots {key!r}: {error}", "give a name, a row, a slice, rows or a mask", "bad-rows") from None
+        if chosen.ndim != 1:
+            raise ArgumentError(f"robots {key!r}", "give a name, a row, a slice, rows or a mask", "bad-rows")
         if self._simulations is not self.simulation._simulations:
             raise StateError("robots were spawned or removed since these were asked for",
                              "ask Simulation.robots() again", "changed-world")

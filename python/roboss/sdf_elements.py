@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from .errors import ArgumentError
-from .names import numbers
+from .names import numbers, real
 
 Element = ET.Element
 
@@ -61,6 +61,7 @@ def unit_vector(what: str, values: ArrayLike) -> NDArray[np.float64]:
 
 def positive(what: str, value: float) -> float:
     """The number, if it is above 0."""
+    value = real(what, value)
     if not (math.isfinite(value) and value > 0):
         raise ArgumentError(f"{what} of {value}", "give a number above 0")
     return value

@@ -1,7 +1,7 @@
 """Sensors: the readings of one sensor of many robots, in one call."""
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Union
+from typing import TYPE_CHECKING, Any, Union, cast
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,7 +18,7 @@ _ROWS = {("contact", "positions"): 3, ("contact", "normals"): 3, ("contact", "fo
          ("box camera", "boxes"): 4, ("box camera", "positions"): 3, ("box camera", "orientations"): 4,
          ("box camera", "sizes"): 3}
 
-Reading = Union[NDArray, list]
+Reading = Union[NDArray[Any], list[Any]]
 
 
 class Sensor:
@@ -34,7 +34,7 @@ class Sensor:
         self.robots, self.name, self.kind, self.update_rate = robots, name, kind, update_rate
         self._number, self._numbers = number, numbers  # among the sensors of the set, and on each robot
 
-    def read(self) -> NDArray[np.float64]:
+    def read(self) -> NDArray[Any]:
         """The main value of the kind, (N, values): of a laser its ranges, (N, beams) in m; of a camera its images.
 
         Images are (N, rows, columns, 3) uint8 of a camera, (N, rows, columns) float32 in m of a depth camera, uint8 of
@@ -48,7 +48,7 @@ class Sensor:
         """
         values = self.read_all()
         name = "ranges" if "ranges" in values else next(iter(values))
-        return values[name]
+        return cast(NDArray[Any], values[name])
 
     def read_all(self) -> dict[str, Reading]:
         """All values by name, with noise, at this tick. Units: docs/sensors.md.

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import Any, Optional, Sequence
 
 from .errors import ArgumentError
-from .names import unknown
+from .names import real, unknown
 from .sdf_elements import positive, put, rgba, unit_vector, vector
 
 _LOOK = ["color", "friction", "restitution"]
@@ -62,13 +62,13 @@ class Shape:
         element.append(self._geometry())
         surface = ET.Element("surface")
         if friction is not None:
-            if not (math.isfinite(friction) and friction >= 0):
-                raise ArgumentError(f"{where}: friction of {friction}", "give 0 or more")
+            if not math.isfinite(real(f"{where}: friction", friction, 0)):
+                raise ArgumentError(f"{where}: friction of {friction}", "give a finite number")
             ode = ET.SubElement(ET.SubElement(surface, "friction"), "ode")
             put(ode, "mu", friction)
             put(ode, "mu2", friction)
         if restitution is not None:
-            if not 0 <= restitution <= 1:
+            if not 0 <= real(f"{where}: restitution", restitution) <= 1:
                 raise ArgumentError(f"{where}: restitution of {restitution}", "give 0 to 1")
             bounce = ET.SubElement(surface, "bounce")
             put(bounce, "restitution_coefficient", restitution)
@@ -103,11 +103,13 @@ def box(size: Sequence[float]) -> Shape:
 
 def sphere(radius: float) -> Shape:
     """Radius in m."""
+    radius = real("radius", radius)
     return Shape("sphere", (("radius", radius),), (0.4 * radius**2,) * 3)
 
 
 def cylinder(radius: float, length: float) -> Shape:
     """Along z; m."""
+    radius, length = real("radius", radius), real("length", length)
     across = radius**2 / 4 + length**2 / 12
     return Shape("cylinder", (("radius", radius), ("length", length)), (across, across, radius**2 / 2))
 
@@ -118,6 +120,7 @@ def capsule(radius: float, length: float) -> Shape:
     The moments are those of the parts, by their shares of the volume. The centre of a half sphere's mass is 3 r / 8 from
     its flat side; about that centre its moment across is 83 / 320 m r^2.
     """
+    radius, length = real("radius", radius), real("length", length)
     rod, ball = math.pi * radius**2 * length, 4 / 3 * math.pi * radius**3
     share = rod / (rod + ball) if rod + ball > 0 else 0.0
     across_rod = radius**2 / 4 + length**2 / 12

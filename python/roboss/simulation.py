@@ -3,13 +3,13 @@ from __future__ import annotations
 
 import os
 import warnings
-from typing import Iterable, Optional, Sequence, Union
+from typing import Iterable, Optional, Self, Sequence, Union
 
 from numpy.typing import ArrayLike
 
 from . import _core
 from .errors import ArgumentError, StateError, WorldWarning
-from .names import filled, instance, whole
+from .names import filled, flag, instance, names_of, whole
 from .robots import Robots
 from .run import Run
 from .view import View
@@ -55,7 +55,7 @@ class Simulation(Run):
         self._take(_core.Simulation(self.world._model, threads_or_all(threads), whole("seed", seed)))
 
     @classmethod
-    def _of(cls, world: World, core: _core.Simulation) -> Simulation:
+    def _of(cls, world: World, core: _core.Simulation) -> Self:
         """The simulation of a world that is there already."""
         simulation = cls.__new__(cls)
         simulation.world = world
@@ -138,10 +138,10 @@ class Simulation(Run):
         """
         self._may_change()
         addition = source if isinstance(source, World) else load(source, dt=self.dt)
-        names = [""] if name is None else [name] if isinstance(name, str) else list(name)
+        names = [""] if name is None else names_of("name", name)
         poses = filled("pose", pose, (len(names), 7)).tolist()
         before = len(self.world.robots)
-        core, model, findings = self._core.spawn(addition._model, names, poses, on_ground)
+        core, model, findings = self._core.spawn(addition._model, names, poses, flag("on_ground", on_ground))
         for finding in findings:
             if finding.severity != "note":
                 warnings.warn(str(finding), WorldWarning, stacklevel=2)

@@ -9,7 +9,7 @@ from numpy.typing import ArrayLike
 from . import _core
 from .errors import ArgumentError
 from .kinematics import _rows
-from .names import filled, numbers
+from .names import filled, numbers, real
 from .robots import Floats
 
 
@@ -89,11 +89,11 @@ def ctraj(pose0: ArrayLike, pose1: ArrayLike, time: ArrayLike, *, ramp: float = 
     array([0.5   , 0.    , 0.    , 0.    , 0.    , 1.5708])
     """
     time = _times(time)
-    if not 0 <= ramp <= 0.5:
+    if not 0 <= real("ramp", ramp) <= 0.5:
         raise ArgumentError(f"a ramp of {ramp}", "give a share of the time, 0 to 0.5")
     begin, end = (_rows(name, pose, 7, pose=True).reshape(7) for name, pose in (("pose0", pose0), ("pose1", pose1)))
     pose, twist = np.empty((len(time), 7)), np.empty((len(time), 6))
-    _core.cartesian_trajectory(begin, end, ramp, time, pose, twist)
+    _core.cartesian_trajectory(begin, end, float(ramp), time, pose, twist)
     return CartesianTrajectory(time, pose, twist)
 
 

@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Optional
 
 from . import _core
-from .names import unknown, whole
+from .names import real, text, unknown, whole
 
 if TYPE_CHECKING:
     from .simulation import Simulation
@@ -44,12 +44,12 @@ class View:
         if role not in _ROLES:
             raise unknown("role", role, _ROLES)
         port = None if port is None else whole("port", port, 1, 65535)
-        host = f"[{address}]" if ":" in address else address
+        host = f"[{address}]" if ":" in text("address", address) else address
         core = _core.open_view(f"{host}:{port or 8090}", str(_PAGE), role, "roboss in Python")
         self.url: str = core.url  #: address of the page, with the token where one is needed
         self._core: Optional[_core.View] = core
         self._simulation = weakref.ref(simulation)
-        self._height = height
+        self._height = whole("height", height, 1)
         self._end = threading.Event()
         self._show()
         self._thread = threading.Thread(target=_turn, args=(self._simulation, core, self._end), daemon=True,
@@ -73,7 +73,7 @@ class View:
 
     def wait(self, pages: int = 1, timeout: float = 60.0) -> bool:
         """Waits until this number of pages is open, at most `timeout` s. Returns whether they are."""
-        end = time.monotonic() + timeout
+        pages, end = whole("pages", pages), time.monotonic() + real("timeout", timeout)
         while self.pages < pages and time.monotonic() < end and not self.closed:
             time.sleep(_TURN_S)
         return self.pages >= pages

@@ -10,7 +10,7 @@ from typing import Iterable, Optional, Sequence, Union
 
 from . import _core
 from .errors import ArgumentError, WorldError, WorldWarning
-from .names import unknown
+from .names import file_path, flag, listed, names_of, real, text, unknown
 
 _EXAMPLES = Path(__file__).parent / "worlds"
 
@@ -67,7 +67,7 @@ class World:
         else:
             known = {name: number for number, name in enumerate(names)}
             ids = []
-            for name in wanted:
+            for name in names_of("robots", wanted):
                 if name not in known:
                     raise unknown("robot", name, names)
                 ids.append(known[name])
@@ -142,15 +142,18 @@ def load(source: Union[str, os.PathLike], *, search_paths: Iterable[Union[str, o
     """
     if precision not in (None, "double", "float"):
         raise ArgumentError(f"a precision of {precision!r}", "give 'double', 'float' or None")
-    source = os.fspath(source)
+    source = file_path("source", source)
     is_text = source.lstrip().startswith("<")
-    model, findings, frames, looks = _core.load(source, is_text, [os.fspath(path) for path in search_paths], profile, ground,
-                                         list(fixed_base), dt, sleep, accuracy, precision and precision == "float", on_ground)
+    model, findings, frames, looks = _core.load(
+        source, is_text, [file_path("search_paths", path) for path in listed("search_paths", search_paths)],
+        text("profile", profile), flag("ground", ground), names_of("fixed_base", listed("fixed_base", fixed_base)),
+        None if dt is None else real("dt", dt), None if sleep is None else flag("sleep", sleep),
+        text("accuracy", accuracy), None if precision is None else precision == "float", flag("on_ground", on_ground))
     errors = [finding for finding in findings if finding.severity == "error"]
     if model is None or (strict and errors):
         file = "the text" if is_text else f"'{source}'"
-        text = "\n".join(str(error) for error in errors)
-        raise WorldError(f"the world of {file} cannot be used:\n{text}", code=errors[0].code if errors else "",
+        listing = "\n".join(str(error) for error in errors)
+        raise WorldError(f"the world of {file} cannot be used:\n{listing}", code=errors[0].code if errors else "",
                          diagnostics=tuple(findings))
     for finding in findings:
         if finding.severity != "note":
@@ -164,7 +167,7 @@ def example(name: str) -> str:
     >>> roboss.load(roboss.example("city.sdf")).robots[:2]
     ('car_0', 'car_1')
     """
-    path = _EXAMPLES / name
+    path = _EXAMPLES / text("name", name)
     if not path.is_file():
         raise unknown("example world", name, sorted(world.name for world in _EXAMPLES.glob("*.sdf")))
     return str(path)

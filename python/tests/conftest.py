@@ -2,6 +2,7 @@
 import contextlib
 import io
 import json
+import re
 import subprocess
 import sys
 from dataclasses import dataclass
@@ -14,6 +15,9 @@ import roboss
 from roboss.analysis.command import main as analysis
 
 REPOSITORY = Path(__file__).resolve().parents[2]
+#: Pages whose Python runs as it stands, one block after the other.
+PAGES = ["README.md", "docs/python.md", "docs/learning.md", "docs/older-systems.md"]
+BLOCK = re.compile(r"^```python\n(.*?)^```", re.DOTALL | re.MULTILINE)
 
 
 @dataclass(frozen=True)

@@ -2,7 +2,6 @@
 import doctest
 import inspect
 import pydoc
-import re
 
 import gymnasium
 import numpy as np
@@ -10,15 +9,13 @@ import pytest
 
 import roboss
 import roboss.analysis
-from conftest import REPOSITORY
+from conftest import BLOCK, PAGES, REPOSITORY
 from roboss import batch, builder, camera, envs, kinematics, robots, run, sensors, simulation, trajectories, view, world
 from roboss.analysis import recorder, recording
 from roboss.envs import city, city_driver, parallel, single, soccer
 
 MODULES = [roboss, batch, builder, camera, world, run, simulation, robots, sensors, kinematics, trajectories, view]
 MODULES += [roboss.analysis, recorder, recording, envs, city, city_driver, parallel, single, soccer]
-
-BLOCK = re.compile(r"^```python\n(.*?)^```", re.DOTALL | re.MULTILINE)
 
 
 @pytest.mark.parametrize("module", MODULES, ids=lambda module: module.__name__)
@@ -39,7 +36,7 @@ def test_everything_public_has_a_docstring(module):
                 assert all(inspect.getdoc(member) for member in [thing, *described]), name
 
 
-@pytest.mark.parametrize("page", ["README.md", "docs/python.md", "docs/learning.md", "docs/older-systems.md"])
+@pytest.mark.parametrize("page", PAGES)
 def test_blocks_of_pages_run(page, monkeypatch, tmp_path):
     monkeypatch.chdir(tmp_path)
     (tmp_path / "my_robot.urdf").write_text((REPOSITORY / "examples/first_robot/rover.urdf").read_text())

@@ -33,20 +33,25 @@ except ImportError as missing:
     raise ImportError("roboss.envs needs the package 'gymnasium', which is not installed\n"
                       "  remedy: pip install 'roboss[envs]'", name="gymnasium") from missing
 
+from typing import TYPE_CHECKING, Any
+
 from .city import CityEnv, CityTask, CityVectorEnv
 from .city_driver import follow_the_gap
 from .single import TaskEnv
 from .soccer import SoccerEnv, SoccerTask, SoccerVectorEnv
 from .soccer_driver import chase_the_ball
-from .task import Outcome, Task
+from .task import Mask, Outcome, Task, Results
 from .vector import TaskVectorEnv
 from .warehouse import WarehouseEnv, WarehouseTask, WarehouseVectorEnv
 from .warehouse_driver import fetch_and_carry
 from .warehouse_traffic import CarrierTraffic
 
-__all__ = ["CarrierTraffic", "CityEnv", "CityParallelEnv", "CityTask", "CityVectorEnv", "Outcome", "SoccerEnv",
+if TYPE_CHECKING:
+    from .parallel import CityParallelEnv, SoccerParallelEnv, TaskParallelEnv, WarehouseParallelEnv
+
+__all__ = ["CarrierTraffic", "CityEnv", "CityParallelEnv", "CityTask", "CityVectorEnv", "Mask", "Outcome", "SoccerEnv",
            "SoccerParallelEnv", "SoccerTask", "SoccerVectorEnv", "Task", "TaskEnv", "TaskParallelEnv",
-           "TaskVectorEnv", "WarehouseEnv", "WarehouseParallelEnv", "WarehouseTask", "WarehouseVectorEnv",
+           "TaskVectorEnv", "Results", "WarehouseEnv", "WarehouseParallelEnv", "WarehouseTask", "WarehouseVectorEnv",
            "chase_the_ball", "fetch_and_carry", "follow_the_gap"]
 
 for _name in ("City", "Soccer", "Warehouse"):
@@ -54,7 +59,7 @@ for _name in ("City", "Soccer", "Warehouse"):
                        vector_entry_point=f"roboss.envs:{_name}VectorEnv")
 
 
-def __getattr__(name):
+def __getattr__(name: str) -> Any:
     """The classes that need PettingZoo, which only they need."""
     if name not in ("CityParallelEnv", "SoccerParallelEnv", "TaskParallelEnv", "WarehouseParallelEnv"):
         raise AttributeError(f"module 'roboss.envs' has no attribute '{name}'")

@@ -1,10 +1,11 @@
 """Cars that drive through a city by laser: the task, and its environments for Gymnasium."""
 from __future__ import annotations
 
-from typing import Optional, Union
+from typing import Any, Optional, Union
 
 import gymnasium
 import numpy as np
+from gymnasium.vector import AutoresetMode
 from numpy.typing import NDArray
 
 from ..errors import ArgumentError
@@ -14,7 +15,7 @@ from .car import drive, heading, poses_of
 from .city_driver import follow_the_gap
 from .city_map import CityMap, city_world
 from .single import TaskEnv
-from .task import Mask, Task
+from .task import Mask, Results, Task
 from .vector import TaskVectorEnv
 
 ARRIVED_M = 1.5      # from the middle of a crossing
@@ -81,7 +82,7 @@ class CityTask(Task):
         self._actions = np.clip(actions, -1, 1) * self.present[:, None]
         drive(self.robots, self._actions)
 
-    def outcome(self, rng: np.random.Generator) -> tuple[NDArray[np.float64], Mask, dict[str, NDArray]]:
+    def outcome(self, rng: np.random.Generator) -> Results:
         pose = self.robots.pose.reshape(-1, 7)
         distance = np.hypot(*self._away(pose).T)
         progress = np.where(self.present, self._distance - distance, 0.0)
@@ -169,8 +170,10 @@ class CityVectorEnv(TaskVectorEnv):
     True
     """
 
-    def __init__(self, num_envs: int = 64, *, worlds: int = 1, autoreset_mode="NextStep", render_mode: Optional[str] = None,
-                 **options):
+    task: CityTask
+
+    def __init__(self, num_envs: int = 64, *, worlds: int = 1, autoreset_mode: Union[AutoresetMode, str] = "NextStep",
+                 render_mode: Optional[str] = None, **options: Any):
         each = self._agents_of_each(worlds, num_envs, "cars", "world")
         super().__init__(CityTask(each, worlds=worlds, **options), autoreset_mode, render_mode)
 
@@ -190,7 +193,7 @@ class CityEnv(TaskEnv):
     ['arrived', 'collided', 'progress']
     """
 
-    def __init__(self, traffic: int = 15, render_mode: Optional[str] = None, **options):
+    def __init__(self, traffic: int = 15, render_mode: Optional[str] = None, **options: Any):
         if traffic < 0:
             raise ArgumentError(f"{traffic} other cars", "give 0 or more")
         super().__init__(CityTask(1 + traffic, **options), follow_the_gap if traffic else None, render_mode)

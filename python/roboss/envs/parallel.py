@@ -3,6 +3,7 @@ from __future__ import annotations
 
 from typing import Any, Optional
 
+import gymnasium
 import numpy as np
 from gymnasium.utils import seeding
 from numpy.typing import NDArray
@@ -14,6 +15,9 @@ from .picture import FRAMES, Picture
 from .soccer import SoccerTask
 from .task import Task
 from .warehouse import WarehouseTask
+
+
+ByAgent = dict[str, Any]  # by the agents' names
 
 
 class TaskParallelEnv(ParallelEnv):
@@ -39,11 +43,11 @@ class TaskParallelEnv(ParallelEnv):
         self._rows = {agent: row for row, agent in enumerate(self.possible_agents)}
         self._rng, _ = seeding.np_random()
 
-    def observation_space(self, agent: str):
+    def observation_space(self, agent: str) -> gymnasium.spaces.Box:
         """What the agent sees."""
         return self._observation_spaces[agent]
 
-    def action_space(self, agent: str):
+    def action_space(self, agent: str) -> gymnasium.spaces.Box:
         """What the agent can do."""
         return self._action_spaces[agent]
 
@@ -53,7 +57,7 @@ class TaskParallelEnv(ParallelEnv):
         return self.task.state_hashes[0]
 
     def reset(self, seed: Optional[int] = None, options: Optional[dict[str, Any]] = None
-              ) -> tuple[dict[str, NDArray[np.float32]], dict[str, dict]]:
+              ) -> tuple[dict[str, NDArray[np.float32]], dict[str, dict[str, Any]]]:
         """Starts the world again, with all agents; the same seed gives the same observations. There are no options."""
         if seed is not None:
             self._rng, _ = seeding.np_random(seed)
@@ -61,7 +65,7 @@ class TaskParallelEnv(ParallelEnv):
         self.task.reset(self._rng)
         return self._by_name(self.task.observe()), {agent: {} for agent in self.agents}
 
-    def step(self, actions: dict[str, NDArray]) -> tuple[dict, dict, dict, dict, dict]:
+    def step(self, actions: dict[str, NDArray[Any]]) -> tuple[ByAgent, ByAgent, ByAgent, ByAgent, ByAgent]:
         """One step of the world; agents of which no action is given get zeros. See pettingzoo.ParallelEnv.step.
 
         Raises:
@@ -117,7 +121,7 @@ class CityParallelEnv(TaskParallelEnv):
     >>> _ = env.step({agent: env.action_space(agent).sample() for agent in env.agents})
     """
 
-    def __init__(self, cars: int = 16, render_mode: Optional[str] = None, **options):
+    def __init__(self, cars: int = 16, render_mode: Optional[str] = None, **options: Any):
         super().__init__(CityTask(cars, **options), "roboss_city_v0", render_mode)
 
 
@@ -135,7 +139,7 @@ class SoccerParallelEnv(TaskParallelEnv):
     ['red_0', 'red_1', 'blue_0', 'blue_1']
     """
 
-    def __init__(self, cars: int = 3, render_mode: Optional[str] = None, **options):
+    def __init__(self, cars: int = 3, render_mode: Optional[str] = None, **options: Any):
         super().__init__(SoccerTask(cars, **options), "roboss_soccer_v0", render_mode)
 
 
@@ -155,9 +159,9 @@ class WarehouseParallelEnv(TaskParallelEnv):
     (33,)
     """
 
-    def __init__(self, carriers: int = 8, render_mode: Optional[str] = None, **options):
+    def __init__(self, carriers: int = 8, render_mode: Optional[str] = None, **options: Any):
         super().__init__(WarehouseTask(carriers, **options), "roboss_warehouse_v0", render_mode)
 
 
-def _copy(space):
+def _copy(space: gymnasium.spaces.Box) -> gymnasium.spaces.Box:
     return type(space)(space.low, space.high, dtype=space.dtype)

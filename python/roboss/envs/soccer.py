@@ -1,10 +1,11 @@
 """Two teams of cars and a ball: the task, and its environment for Gymnasium."""
 from __future__ import annotations
 
-from typing import Optional
+from typing import Any, Optional, Union
 
 import gymnasium
 import numpy as np
+from gymnasium.vector import AutoresetMode
 from numpy.typing import NDArray
 
 from ..errors import ArgumentError
@@ -12,7 +13,7 @@ from .car import drive, heading, poses_of
 from .single import TaskEnv
 from .soccer_driver import chase_the_ball
 from .soccer_field import BALL_RADIUS_M, HALF_LENGTH_M, HALF_WIDTH_M, outside, soccer_world
-from .task import Mask, Task
+from .task import Mask, Results, Task
 from .vector import TaskVectorEnv
 
 APART_M = 0.8  # between cars at kick-off
@@ -89,7 +90,7 @@ class SoccerTask(Task):
     def act(self, actions: NDArray[np.float64]) -> None:
         drive(self.robots, np.clip(actions, -1, 1) * self.present[:, None])
 
-    def outcome(self, rng: np.random.Generator) -> tuple[NDArray[np.float64], Mask, dict[str, NDArray]]:
+    def outcome(self, rng: np.random.Generator) -> Results:
         x = self._ball.pose.reshape(self.worlds, 7)[:, 0]
         scored = np.where(np.abs(x) > HALF_LENGTH_M + BALL_RADIUS_M, np.sign(x), 0.0)
         moved, self._ball_x = x - self._ball_x, x.copy()
@@ -153,8 +154,10 @@ class SoccerVectorEnv(TaskVectorEnv):
     (12, 22)
     """
 
-    def __init__(self, num_envs: int = 6, *, cars: int = 3, autoreset_mode="NextStep", render_mode: Optional[str] = None,
-                 **options):
+    task: SoccerTask
+
+    def __init__(self, num_envs: int = 6, *, cars: int = 3, autoreset_mode: Union[AutoresetMode, str] = "NextStep",
+                 render_mode: Optional[str] = None, **options: Any):
         if num_envs < 1 or cars < 1 or num_envs % (2 * cars):
             raise ArgumentError(f"{num_envs} cars in teams of {cars}", f"give a multiple of {2 * max(1, cars)}")
         super().__init__(SoccerTask(cars, worlds=num_envs // (2 * cars), **options), autoreset_mode,
@@ -176,5 +179,5 @@ class SoccerEnv(TaskEnv):
     ((18,), {'goals': 0})
     """
 
-    def __init__(self, cars: int = 1, render_mode: Optional[str] = None, **options):
+    def __init__(self, cars: int = 1, render_mode: Optional[str] = None, **options: Any):
         super().__init__(SoccerTask(cars, **options), chase_the_ball, render_mode)

@@ -3,7 +3,7 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from dataclasses import dataclass
-from typing import Optional, Union
+from typing import Any, Optional, Union
 
 import gymnasium
 import numpy as np
@@ -14,7 +14,8 @@ from ..errors import ArgumentError
 from ..simulation import Simulation
 from ..world import World
 
-Mask = NDArray[np.bool_]
+Mask = NDArray[np.bool_]  #: one truth value for each agent
+Results = tuple[NDArray[np.float64], Mask, dict[str, NDArray[Any]]]  #: rewards, who is terminated, more arrays by name
 
 
 @dataclass(frozen=True)
@@ -31,7 +32,7 @@ class Outcome:
     rewards: NDArray[np.float64]
     terminated: Mask
     truncated: Mask
-    infos: dict[str, NDArray]
+    infos: dict[str, NDArray[Any]]
 
     @property
     def finished(self) -> Mask:
@@ -108,7 +109,7 @@ class Task(ABC):
         self.remove(agents)
         self.present &= ~agents
 
-    def step(self, actions: NDArray, rng: np.random.Generator) -> Outcome:
+    def step(self, actions: NDArray[Any], rng: np.random.Generator) -> Outcome:
         """Gives the agents' actions, (count, ...), advances all worlds by `ticks` and tells what came of it.
 
         Raises:
@@ -125,11 +126,11 @@ class Task(ABC):
         truncated = self.present & ~terminated & (self.age >= self.episode_steps)
         return Outcome(rewards, terminated, truncated, infos)
 
-    def rows_of(self, values: NDArray) -> NDArray:
+    def rows_of(self, values: NDArray[Any]) -> NDArray[Any]:
         """An array of `robots`, (N, ...) of one world or (worlds, N, ...) of several, with one row for each agent: (count, ...)."""
         return values.reshape(self.count, *values.shape[1 if self.worlds == 1 else 2:])
 
-    def by_world(self, rows: NDArray) -> NDArray:
+    def by_world(self, rows: NDArray[Any]) -> NDArray[Any]:
         """An array with one row for each agent, (count, ...), as `robots` takes it: (N, ...), or (worlds, N, ...) of several worlds."""
         return rows if self.worlds == 1 else rows.reshape(self.worlds, len(self.names), *rows.shape[1:])
 
@@ -158,7 +159,7 @@ class Task(ABC):
         """
 
     @abstractmethod
-    def outcome(self, rng: np.random.Generator) -> tuple[NDArray[np.float64], Mask, dict[str, NDArray]]:
+    def outcome(self, rng: np.random.Generator) -> Results:
         """Called after the worlds are stepped: rewards (count,), who is terminated (count,) bool, and more arrays (count, ...)
         by name, which Gymnasium gets as infos. Rows of agents that are not present are zero."""
 

@@ -1,16 +1,17 @@
 """Carriers that fetch loads at racks and bring them to stations: the task, and its environments for Gymnasium."""
 from __future__ import annotations
 
-from typing import Optional
+from typing import Any, Optional, Union
 
 import gymnasium
 import numpy as np
+from gymnasium.vector import AutoresetMode
 from numpy.typing import NDArray
 
 from ..errors import ArgumentError
 from .car import heading, poses_of
 from .single import TaskEnv
-from .task import Mask, Task
+from .task import Mask, Results, Task
 from .vector import TaskVectorEnv
 from .warehouse_driver import fetch_and_carry
 from .warehouse_hall import BEAMS, RANGE_M, Hall, on_deck, on_shelf
@@ -114,7 +115,7 @@ class WarehouseTask(Task):
         command[:, 0], command[:, 5] = self._actions[:, 0] * TOP_SPEED_M_S, self._actions[:, 1] * TOP_TURN_RAD_S
         self.robots.command("cmd_vel", command.reshape(*self.robots.pose.shape[:-1], 6))
 
-    def outcome(self, rng: np.random.Generator) -> tuple[NDArray[np.float64], Mask, dict[str, NDArray]]:
+    def outcome(self, rng: np.random.Generator) -> Results:
         pose, twist = self.robots.pose.reshape(-1, 7), self.robots.twist.reshape(-1, 6)
         length, _ = self.hall.ways(pose[:, :2], self._place_of_goal)
         progress = np.where(self.in_service, self._length - length, 0.0)
@@ -245,8 +246,10 @@ class WarehouseVectorEnv(TaskVectorEnv):
     True
     """
 
-    def __init__(self, num_envs: int = 8, *, worlds: int = 1, autoreset_mode="NextStep", render_mode: Optional[str] = None,
-                 **options):
+    task: WarehouseTask
+
+    def __init__(self, num_envs: int = 8, *, worlds: int = 1, autoreset_mode: Union[AutoresetMode, str] = "NextStep",
+                 render_mode: Optional[str] = None, **options: Any):
         each = self._agents_of_each(worlds, num_envs, "carriers", "hall")
         super().__init__(WarehouseTask(each, worlds=worlds, **options), autoreset_mode, render_mode)
 
@@ -266,7 +269,7 @@ class WarehouseEnv(TaskEnv):
     True
     """
 
-    def __init__(self, others: int = 5, render_mode: Optional[str] = None, **options):
+    def __init__(self, others: int = 5, render_mode: Optional[str] = None, **options: Any):
         if others < 0:
             raise ArgumentError(f"{others} other carriers", "give 0 or more")
         super().__init__(WarehouseTask(1 + others, **options), fetch_and_carry if others else None, render_mode)
