@@ -506,7 +506,9 @@ TEST(LoadWorld, ReadsSoftContacts) {
     EXPECT_EQ(spec("<max_vel>0.1</max_vel><min_depth>0.001</min_depth>").min_depth, 0.001);
     const Loaded bad = with_surface("<contact><ode><kp>-5</kp></ode></contact>");
     EXPECT_TRUE(bad.find("bad-value")) << bad.text();
-    const Loaded both = with_surface("<contact><ode><kp>1e5</kp><max_vel>0.1</max_vel></ode></contact>");
+    EXPECT_FALSE(with_surface("<contact><ode><kp>1e5</kp><max_vel>0.1</max_vel></ode></contact>")
+                     .find("surface-element"));
+    const Loaded both = with_surface("<contact><ode><kp>1e5</kp><min_depth>0.1</min_depth></ode></contact>");
     EXPECT_TRUE(both.find("surface-element")) << both.text();
 }
 

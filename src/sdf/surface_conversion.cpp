@@ -122,9 +122,8 @@ void read_ode_contact(const Element& ode, const Import& import, SurfaceSpec& spe
                                    "Write the penetration in m that may stay.");
         spec.min_depth = 0;
     }
-    if (spec.stiffness == 0) return;
-    for (const char* name : {"max_vel", "min_depth"})
-        if (ode.child(name)) no_effect(ode, name, "the contact's own spring mends its penetration", import);
+    if (spec.stiffness > 0 && ode.child("min_depth"))
+        no_effect(ode, "min_depth", "the contact's own spring bears its penetration", import);
 }
 
 void read_contact(const Element& contact, const Import& import, SurfaceSpec& spec) {
