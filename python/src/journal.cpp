@@ -66,10 +66,11 @@ std::shared_ptr<Simulation> at(const Journal& journal, BranchId id, const std::s
 }
 
 /// (branch, from, until) of each part of the lineage. The last ends where the branch is committed.
-nb::list lineage(const Journal& journal, BranchId id) {
+nb::list parts_of(const Journal& journal, BranchId id) {
     const Branch branch = value_or_raise(journal.branch(id), "JournalError");
+    const Lineage lineage = journal.lineage(branch);
     nb::list all;
-    for (const Lineage::Part& part : journal.lineage(branch).parts())
+    for (const Lineage::Part& part : lineage.parts())
         all.append(nb::make_tuple(part.branch, part.from, part.branch == id ? branch.committed : part.until));
     return all;
 }
@@ -112,7 +113,7 @@ void bind_journal(nb::module_& module) {
         .def("checkpoints", &checkpoints, nb::arg("branch"))
         .def("at", &at, nb::arg("branch"), nb::arg("model"), nb::arg("tick"), nb::arg("until"),
              nb::arg("follow"), nb::arg("threads"))
-        .def("lineage", &lineage, nb::arg("branch"))
+        .def("lineage", &parts_of, nb::arg("branch"))
         .def("holder", &holder, nb::arg("branch"), nb::arg("tick"), nb::arg("dt"));
     module.def(
         "check_output",
