@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from . import _core
 from .errors import ArgumentError
-from .names import flag, index_of, names_of, numbers, real, unknown, whole
+from .names import flag, index_of, instance, names_of, numbers, real, unknown, whole
 from .robots import Floats, Robots
 from .world import World, load
 
@@ -165,11 +165,13 @@ class RobotModel:
         >>> arm.configuration(sim.robots("arm")).shape
         (1, 6)
         """
+        instance("robots", robots, Robots, "give what Simulation.robots returned")
         joints = robots.joint_position[..., self._columns_in(robots)]
         return np.concatenate([robots.pose, joints], axis=-1) if self.free_base else joints
 
     def velocity(self, robots: Robots) -> Floats:
         """v of robots of this type in a simulation, (N, v_columns)."""
+        instance("robots", robots, Robots, "give what Simulation.robots returned")
         joints = robots.joint_velocity[..., self._columns_in(robots)]
         return np.concatenate([robots.twist, joints], axis=-1) if self.free_base else joints
 
@@ -200,7 +202,7 @@ class RobotModel:
     def link_twist(self, q: ArrayLike, v: ArrayLike, link: str, *, tool: Optional[ArrayLike] = None) -> Floats:
         """Velocities of a link's frame, (..., 6): linear in m/s, of its origin (with `tool`, of the tool's origin);
         angular in rad/s; world axes. v: (..., v_columns)."""
-        q, v = self._arrays(q=q, v=v)
+        q, v = self._arrays(q=q, v=numbers("v", v))
         out = np.empty((*q.shape[:-1], 6))
         self._core.tool_twists(q, v, *self._place(link, tool), out)
         return out
@@ -308,7 +310,7 @@ class RobotModel:
     def coriolis_matrix(self, q: ArrayLike, v: ArrayLike) -> Floats:
         """C(q, v), (..., v_columns, v_columns): of all matrices with C v = coriolis_forces, the one for which
         dM/dt - 2 C is skew-symmetric (Christoffel symbols; Echeandia and Wensing, 2021)."""
-        q, v = self._arrays(q=q, v=v)
+        q, v = self._arrays(q=q, v=numbers("v", v))
         out = np.empty((*q.shape[:-1], self.v_columns, self.v_columns))
         self._core.coriolis_matrices(q, v, out)
         return out

@@ -44,7 +44,10 @@ class MujocoOrder:
     """
 
     def __init__(self, robot: Union[RobotModel, Robots]):
-        self._set(robot._facts)
+        facts = getattr(robot, "_facts", None)
+        if facts is None:
+            raise ArgumentError(f"robot: a value of type '{type(robot).__name__}'", "give a RobotModel, or Robots of one type", "bad-type")
+        self._set(facts)
 
     @classmethod
     def _of(cls, facts: TypeFacts) -> MujocoOrder:

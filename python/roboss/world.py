@@ -137,7 +137,7 @@ def load(source: Union[str, os.PathLike], *, search_paths: Iterable[Union[str, o
     ... </link></robot>''', ground=True, on_ground=True)
     >>> world.robots
     ('ball',)
-    >>> roboss.Simulation(world).robots().pose[0, 2].round(6)
+    >>> float(roboss.Simulation(world).robots().pose[0, 2].round(6))
     0.1
     """
     if precision not in (None, "double", "float"):
@@ -150,7 +150,7 @@ def load(source: Union[str, os.PathLike], *, search_paths: Iterable[Union[str, o
         None if dt is None else real("dt", dt), None if sleep is None else flag("sleep", sleep),
         text("accuracy", accuracy), None if precision is None else precision == "float", flag("on_ground", on_ground))
     errors = [finding for finding in findings if finding.severity == "error"]
-    if model is None or (strict and errors):
+    if model is None or (flag("strict", strict) and errors):
         file = "the text" if is_text else f"'{source}'"
         listing = "\n".join(str(error) for error in errors)
         raise WorldError(f"the world of {file} cannot be used:\n{listing}", code=errors[0].code if errors else "",

@@ -93,7 +93,7 @@ class OrderFile:
 
     def give(self, line):
         (kind, order), = ((key, value) for key, value in line.items() if key not in ("t", "robot"))
-        getattr(self, kind)(self.sim.robots([line["robot"]]), order)
+        getattr(self, kind)(self.sim.robots(line["robot"]), order)  # a name or a pattern
 
     def joint(self, robot, order):
         mode, = (key for key in ("velocity", "position", "effort") if key in order)

@@ -118,7 +118,7 @@ WRONG = {
     "a pose that is not finite": (lambda b: b.sphere("x", 1, pose=[0, 0, np.nan]), "bad-pose"),
     "a quaternion of length 0": (lambda b: b.sphere("x", 1, pose=[0] * 7), "bad-pose"),
     "a color above 1": (lambda b: b.sphere("x", 1, color=[255, 0, 0]), "bad-color"),
-    "a negative friction": (lambda b: b.sphere("x", 1, friction=-1), ""),
+    "a negative friction": (lambda b: b.sphere("x", 1, friction=-1), "bad-value"),
     "a restitution above 1": (lambda b: b.sphere("x", 1, restitution=2), ""),
     "a property that is not there": (lambda b: b.sphere("x", 1, colour=[1, 0, 0]), "unknown-name"),
     "a file that is not there": (lambda b: b.add("x", "no_such.urdf"), "no-file"),

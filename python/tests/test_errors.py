@@ -158,6 +158,11 @@ def test_warnings_have_file_and_line():
     assert [(found.file, found.line) for found in world.diagnostics if found.severity == "warning"] == [("<text>", 3)]
 
 
+def test_breadcrumbs_that_are_stored_below_the_world_do_not_overlap():
+    found = [finding.code for finding in roboss.load(roboss.example("errands.sdf")).diagnostics]
+    assert "start-overlap" not in found
+
+
 def test_a_model_with_errors_is_left_out_or_refused():
     bad = BALL[BALL.index("<model"):BALL.index("</world>")].format(
         "<collision name='c'><geometry><sphere><radius>-1</radius></sphere></geometry></collision>")

@@ -106,11 +106,11 @@ def test_wildcards_leave_out_radios_that_are_sampled_too_seldom(tmp_path):
 
 def test_a_refused_recording_leaves_the_older_file(tmp_path):
     path = tmp_path / "run.parquet"
-    path.write_bytes(b"older")
+    path.write_bytes(b"PAR1 older")
     for pattern in ("rover_1.radio.messages", "**.messages"):
         with pytest.raises(roboss.ArgumentError, match=r"rover_\d\.radio\.messages") as caught:
             analysis.record_file(RADIO, path, ["rover_1.**", pattern], until=4, every=2)
-        assert caught.value.code == "bad-value" and path.read_bytes() == b"older"
+        assert caught.value.code == "bad-value" and path.read_bytes() == b"PAR1 older"
 
 
 def test_readings_of_changing_length_are_messages(tmp_path):

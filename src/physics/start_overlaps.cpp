@@ -8,8 +8,10 @@
 #include <set>
 #include <tuple>
 #include <utility>
+#include <variant>
 
 #include "core/float_env.h"
+#include "onboard_kinds/breadcrumbs.h"
 #include "physics/contact/box_strips.h"
 #include "physics/contact/contact.h"
 #include "physics/step_failure.h"
@@ -24,6 +26,17 @@ struct LinkOverlap {
     std::uint32_t scenery = 0;
     double depth = 0;
 };
+
+/// A breadcrumb that was not dropped yet: it is stored below the world, and nothing touches it.
+bool is_stored(const RobotType& type, const RobotState& state) {
+    const auto dropped = type.find_channel(CrumbSpec::kDropped);
+    if (!dropped) return false;
+    const auto is_crumb = [](const OnboardInfo& info) {
+        return std::holds_alternative<CrumbSpec>(info.spec.parameters);
+    };
+    if (std::ranges::none_of(type.onboard, is_crumb)) return false;
+    return state.onboard[static_cast<std::size_t>(type.channels[*dropped].index)] < 0;
+}
 
 double extent_of(const Shape& shape) {
     return 2 * bounding_radius(shape);
@@ -41,7 +54,9 @@ class OverlapSearch {
         std::vector<Aabb> boxes;
         for (std::size_t i = 0; i < states_.size(); ++i) {
             place(i, works_[0]);
-            const bool placed = !body_beyond_numbers(works_[0]);
+            const bool placed =
+                !body_beyond_numbers(works_[0]) &&
+                !is_stored(model_.type_of(RobotId(static_cast<std::uint32_t>(i))), states_[i]);
             boxes.push_back(placed ? works_[0].box : Aabb{});
             if (!placed || i < first || model_.type_of(RobotId(i)).kinematic) continue;
             contacts_.clear();

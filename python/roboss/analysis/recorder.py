@@ -14,6 +14,7 @@ import numpy as np
 from ..errors import ArgumentError, RobossError, WorldWarning
 from ..journal import Journal, _Replay
 from ..kinematics import RobotModel
+from ..names import real
 from ..outputs import check_output
 from ..run import Run
 from ..simulation import Simulation
@@ -234,7 +235,8 @@ def opened(source: Source, start: Optional[float], until: Optional[float],
 
 def check_order(start: Optional[float], until: Optional[float]) -> None:
     """Refuses a range of times that ends before it starts."""
-    if start is not None and until is not None and not start <= until:
+    times = [real("time", time) for time in (start, until) if time is not None]
+    if times != sorted(times):
         raise ArgumentError(f"times from {start:g} to {until:g} s", "let them end after they start (--from, --until)", "bad-value")
 
 

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any, Callable, Iterable, Mapping, Sequence, Un
 import numpy as np
 
 from ..errors import ArgumentError, RobossError
-from ..names import unknown
+from ..names import file_path, unknown
 from ..outputs import check_output
 from ..robots import Floats
 
@@ -181,9 +181,10 @@ def read(path: Union[str, os.PathLike]) -> Recording:
 
 def existing(path: Union[str, os.PathLike]) -> str:
     """The path of a file that exists. Raises ArgumentError (code "no-file") if it does not."""
-    if not Path(path).is_file():
-        raise ArgumentError(f"there is no file '{os.fspath(path)}'", "check its name", "no-file")
-    return os.fspath(path)
+    name = file_path("path", path)
+    if not Path(name).is_file():
+        raise ArgumentError(f"there is no file '{name}'", "check its name", "no-file")
+    return name
 
 
 def _suffix(path: Union[str, os.PathLike]) -> str:
