@@ -1,6 +1,6 @@
 // See joint_start.h. Behind linear couplings each follower is an affine function of the joint that leads its
-// chain, so the limits of the whole chain are one interval of that joint's coordinate. Followers behind a curved
-// coupling (MJCF `polycoef`) are placed, too, but do not narrow that interval.
+// chain, so the limits of the whole chain are one interval of that joint's coordinate. Followers behind a
+// curved coupling (MJCF `polycoef`) are placed, too, but do not narrow that interval.
 #include "model/joint_start.h"
 
 #include <algorithm>
