@@ -59,6 +59,7 @@ TEST(Allocation, RobotsOfVeryManyHullsAllocateNothing) {
     place(world, model, "a", {{0, 0, 0.3}, {}});
     world.instances.push_back({"b", 1, {{0.3, 0, 0.6}, {}}, {}});
     Simulation sim(world);
+    allocations_of(sim, 300);  // the fronts of this pile trade buffers, so these grow in several runs
     EXPECT_EQ(allocations_of(sim, 300), 0u);
 }
 
