@@ -215,15 +215,14 @@ Result<std::optional<Divergence>> compare_stretch(const Side& a, const Side& b, 
     return std::optional(std::move(kept));
 }
 
-/// Where one of the runs goes on in another branch, from `from` to `until`.
+/// The ticks at which one of the runs continues in another branch, from `from` to `until`.
 std::vector<Tick> turns(const Lineage& a, const Lineage& b, Tick from, Tick until) {
     std::vector<Tick> ticks{from, until};
     for (const Lineage* lineage : {&a, &b})
         for (const Lineage::Part& part : lineage->parts())
             if (part.from > from && part.from < until) ticks.push_back(part.from);
     std::ranges::sort(ticks);
-    const auto repeated = std::ranges::unique(ticks);
-    ticks.erase(repeated.begin(), repeated.end());
+    ticks.erase(std::unique(ticks.begin(), ticks.end()), ticks.end());
     return ticks;
 }
 

@@ -23,6 +23,7 @@ struct LineFault : std::runtime_error {
     LineFault(const std::string& message, std::string what_to_do)
         : std::runtime_error(message), remedy(std::move(what_to_do)) {}
     std::string remedy;
+    Severity severity = Severity::kError;
 };
 
 void only_keys(const json& object, const char* what, std::initializer_list<const char*> keys) {
@@ -410,9 +411,14 @@ std::vector<Order> parse_line(const std::string& line, const Model& model) {
     const json o = parse_json(line);
     std::vector<Order> orders =
         o.is_object() && o.contains("publish") ? parse_publish(o, model) : parse_order(o, model);
-    for (const Order& order : orders)
-        if (const Result<> checked = check_order(model, order); !checked)
-            throw LineFault(checked.error().message, checked.error().remedy);
+    for (const Order& order : orders) {
+        const Result<> checked = check_order(model, order);
+        if (checked) continue;
+        LineFault fault(checked.error().message, checked.error().remedy);
+        // The fault of the robot's file, not of the order: exporters write limits of 0. The other orders run.
+        if (checked.error().code == "no-effort") fault.severity = Severity::kWarning;
+        throw fault;
+    }
     return orders;
 }
 
@@ -516,7 +522,7 @@ std::vector<Order> parse_orders(std::string_view content, const std::string& fil
                 sequence += std::uint64_t{1} << 32;  // a line may give several; no two may be equal
             }
         } catch (const LineFault& fault) {
-            diagnostics.error({file, at}, "bad-order", fault.what(), fault.remedy);
+            diagnostics.add({fault.severity, {file, at}, "bad-order", fault.what(), fault.remedy, false});
         }
     }
     return orders;

@@ -10,7 +10,7 @@ namespace roboss {
 namespace {
 
 /// A world with one robot "cart": a free base with one joint "slide".
-std::shared_ptr<const Model> cart_model() {
+World cart_world() {
     World world;
     ModelSpec cart;
     cart.canonical_link = "base";
@@ -28,8 +28,12 @@ std::shared_ptr<const Model> cart_model() {
     world.prototypes = {cart};
     world.instances = {{"cart", 0, {}, {}}};
     world.dt_s = 0.002;
+    return world;
+}
+
+std::shared_ptr<const Model> cart_model() {
     Diagnostics diagnostics;
-    return compile(world, {}, diagnostics);
+    return compile(cart_world(), {}, diagnostics);
 }
 
 TEST(OrdersFile, EveryLevelIsRead) {
@@ -55,6 +59,22 @@ TEST(OrdersFile, EveryLevelIsRead) {
     EXPECT_EQ(std::get<ApplyWrench>(orders[2].action).duration, 50);
     EXPECT_EQ(std::get<SetJoint>(orders[3].action).mode, MotorMode::kVelocity);
     EXPECT_EQ(orders[3].sequence, 6u) << "the line number";
+}
+
+TEST(OrdersFile, AnOrderToAJointWithoutEffortIsLeftOutWithAWarning) {
+    Diagnostics d;
+    World world = cart_world();
+    world.prototypes[0].joints[0].axes[0].max_effort = 0;
+    const auto model = compile(world, {}, d);
+    Diagnostics found;
+    const auto orders = parse_orders(R"({"t":0,"robot":"cart","joint":{"name":"slide","velocity":1}})"
+                                     "\n"
+                                     R"({"t":0,"robot":"cart","set_velocity":{"linear":[1,0,0]}})",
+                                     "f.jsonl", *model, found);
+    EXPECT_EQ(orders.size(), 1u) << "the other one";
+    ASSERT_EQ(found.items().size(), 1u);
+    EXPECT_EQ(found.items()[0].severity, Severity::kWarning);
+    EXPECT_EQ(found.items()[0].where.line, 1);
 }
 
 TEST(OrdersFile, AQuaternionIsReadInTheOrderThatItsKeyNames) {

@@ -1,10 +1,10 @@
 // What a picture of the page would still miss of what the page was asked to show. `roboss snapshot` takes none before this is
 // empty: on a busy machine reports come late, and a page without news draws its last moment under a veil.
+import { OVERLAY_PARTS } from "../wire/messages";
 import type { Overlay, ViewerState } from "./viewer_state";
 
 /** They draw what the report of the selected robot says. */
 const OF_REPORT: readonly Overlay[] = ["rays", "points", "contacts"];
-const OF_OVERLAY_REPORT = ["contacts", "radio", "bounds"] as const;
 
 export interface PictureFacts {
     /** The first State is drawn. */
@@ -30,8 +30,7 @@ export function waitsOf(state: ViewerState, facts: PictureFacts): string {
         reported = OF_REPORT.some((overlay) => on.has(overlay)) || facts.panel === "inspector";
     if (robot !== null && reported && state.report.value?.robot !== robot)
         return `the report of ${world.fleet.name(robot)}`;
-    const told = state.overlayReport.value,
-        missing = OF_OVERLAY_REPORT.find((overlay) => on.has(overlay) && told?.[overlay] === undefined);
+    const missing = OVERLAY_PARTS.find((part) => on.has(part) && !state.overlayParts.has(part));
     if (missing !== undefined) return missing;
     const colour = state.colourBy.value;
     if ((on.has("islands") || colour === "island" || colour === "simulator") && state.groups.value === null)

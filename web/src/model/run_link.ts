@@ -3,6 +3,7 @@
 import { Connection, type LinkState } from "../wire/connection";
 import type { Probe } from "../wire/probe";
 import { RATE_MAX, VERSION, WATCHED_CAMERAS_MAX, WATCHED_ROBOTS_MAX } from "../protocol";
+import { OVERLAY_PARTS } from "../wire/messages";
 import type { Answer, Incoming, OrderAction, Watch } from "../wire/messages";
 import { isPicture, readPicture } from "../wire/picture";
 import { loadScene } from "../wire/scene_source";
@@ -101,7 +102,9 @@ export class RunLink {
                 if (message.scene === this.sceneNumber()) this.state.report.set(message);
                 break;
             case "overlay":
-                if (message.scene === this.sceneNumber()) this.state.overlayReport.set(message);
+                if (message.scene !== this.sceneNumber()) break;
+                for (const part of OVERLAY_PARTS) if (message[part] !== undefined) this.state.overlayParts.add(part);
+                this.state.overlayReport.set(message);
                 break;
             case "profile":
                 this.state.profile.set(message);

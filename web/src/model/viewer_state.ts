@@ -1,6 +1,6 @@
 // What the page knows and what its person chose, as signals. Every panel and every layer of the picture follows these;
 // none knows another.
-import type { Groups, OverlayReport, RobotReport, Status } from "../wire/messages";
+import type { Groups, OverlayPart, OverlayReport, RobotReport, Status } from "../wire/messages";
 import type { StepProfile } from "../wire/profile";
 import type { LinkState } from "../wire/connection";
 import type { Probe } from "../wire/probe";
@@ -80,7 +80,10 @@ export class ViewerState {
     /** An earlier moment that is drawn instead of the present. */
     readonly shown = new Signal<Shown | null>(null);
     readonly groups = new Signal<Groups | null>(null);
+    /** The last message; each has some parts only. */
     readonly overlayReport = new Signal<OverlayReport | null>(null);
+    /** The parts that have come so far. */
+    readonly overlayParts = new Set<OverlayPart>();
     /** Surfaces in motion and bonds; null: there have been none. */
     readonly extras = new Signal<Extras | null>(null);
     /** The bond that the next robot chosen becomes part of. */

@@ -236,6 +236,10 @@ export interface OverlayReport {
     bounds?: { robot: number; box: [Triple, Triple] | number[] }[];
 }
 
+/** The parts of an OverlayReport; a message has some of them. */
+export const OVERLAY_PARTS = ["contacts", "radio", "bounds"] as const;
+export type OverlayPart = (typeof OVERLAY_PARTS)[number];
+
 export interface Hello {
     type: "hello";
     version: number;
