@@ -72,7 +72,7 @@ struct PrincipalAxes {
 };
 PrincipalAxes principal_axes(Mat3 m);
 
-/// Whether it is fixed, turns or slides about one axis, or is a ball joint: the kinds that every peer has. An
+/// True if it is fixed, turns or slides about one axis, or is a ball joint: the kinds that every peer has. An
 /// adapter that knows no others asks this, so that it refuses kinds that are new to it.
 bool is_common(JointSpecKind kind);
 

@@ -59,7 +59,7 @@ std::shared_ptr<const MeshSpec> hills_mesh() {
     return mesh;
 }
 
-/// Of the grid's cells, bilinear: within the roughness of a cell of the triangles.
+/// Height of the grid's cells, bilinear: within the roughness of a cell of the triangles.
 double ground_below(const HeightGridSpec& grid, double x, double y) {
     const double step = kEdge / (kPoints - 1), last = static_cast<double>(kPoints - 2);
     const double u = (x + 0.5 * kEdge) / step, v = (y + 0.5 * kEdge) / step;

@@ -149,7 +149,7 @@ nb::list commands_of(const RobotSet& set) {
     return commands;
 }
 
-/// What is the same of all RobotTypes of the set; None: they differ.
+/// The value that all RobotTypes of the set share; None: they differ.
 template <class Of>
 nb::object same_of(const RobotSet& set, const Of& of) {
     const auto first = of(0);
@@ -165,7 +165,7 @@ std::vector<std::string> names_of(const std::vector<Named>& all) {
     return names;
 }
 
-/// What the robots, at least one, have in common.
+/// The facts that the robots, at least one, have in common.
 nb::dict facts_of(const std::shared_ptr<const Model>& model, const std::vector<std::uint32_t>& robots) {
     std::vector<RobotId> ids;
     for (const std::uint32_t robot : robots) ids.emplace_back(robot);

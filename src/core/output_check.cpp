@@ -15,7 +15,7 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t kLookedAt = 4096;  // bytes of a file
 
-/// What files of a kind begin with, and a text that they have soon; either may be empty.
+/// The first bytes of files of a kind, and a text that follows soon; either may be empty.
 struct Kind {
     std::string_view name, phrase, head, within;
 };

@@ -30,7 +30,7 @@ class Outputs : public ::testing::Test {
         const Result<> done = check.check();
         return done ? "" : done.error().code;
     }
-    /// Of one output beside an input.
+    /// The check of one output beside an input.
     std::string code_of(const std::string& output, std::string_view kind = "trace") const {
         OutputCheck check;
         check.reads(path("world.sdf"));

@@ -17,7 +17,7 @@ struct Parameter {
     /// Of a sensor: it was added after Models of its kind were hashed. Its default is not hashed, so those
     /// Models keep their hashes.
     bool later = false;
-    /// Of a controller's text: a word that says how it works. Other texts are names and topics, in which
+    /// For a controller's text: a word that says how it works. Other texts are names and topics, in which
     /// robots of one type may differ.
     bool choice = false;
 };

@@ -30,7 +30,7 @@ class Bvh {
     template <class Meets, class Visit>
     static void visit_pairs(const Bvh& a, const Bvh& b, Meets meets, Visit visit);
 
-    /// Whether there are items whose boxes overlap `box`; bounded items only.
+    /// True if there are items whose boxes overlap `box`; bounded items only.
     bool overlaps_any(const Aabb& box) const;
 
     /// The smallest distance that `distance_to(item)` gives over the items whose box the ray meets nearer

@@ -68,7 +68,7 @@ class SurfaceCollider {
 
     std::size_t corner_of_surface(std::size_t k) const { return turned_ && k > 0 ? 3 - k : k; }
 
-    /// Of the body's feature that is furthest down, what is over the triangle.
+    /// The part over the triangle of the body's feature that is furthest down.
     ClippedFeature points_over() const {
         const Vec3& n = triangle_.n;
         const double border = kBorder * body_.size();

@@ -91,7 +91,7 @@ class PlainCollider {
         }
     }
 
-    /// Whether the surface, not only this triangle, ends along d here.
+    /// True if the surface, not only this triangle, ends along d here.
     bool is_own_normal(const ConvexBody& sheet, const Vec3& d) const {
         const double along = dot(d, triangle_.n);
         if (along < -kTops) return false;

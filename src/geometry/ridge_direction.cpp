@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kWide = -0.5;  // cosine between two normals: wider is left to the general search
 
-/// Of a ridge, as a function of t.
+/// The gap along a ridge, as a function of t.
 class Arc {
   public:
     Arc(const ConvexBody& body, const Vec3& corner, const Vec3& n, const Vec3& beyond)

@@ -61,7 +61,7 @@ BatchRow to_batch_row(const LogBatch& entries);  // low, high, orders, bytes and
 std::uint64_t chain_of(std::uint64_t before, const BatchRow& row);
 std::uint64_t check_of(const Branch& branch);
 std::uint64_t check_of(const CheckpointRow& row);
-/// Of a row that a format before 8 has.
+/// The digest of a row that a format before 8 has.
 std::uint64_t check_of(const CheckpointEntry& entry, const Blob& memory, const Blob& states);
 std::uint64_t check_of(const LogBase& base);
 std::uint64_t check_of(const Bookmark& mark);

@@ -114,7 +114,7 @@ Result<> Journal::read_checkpoint_entries() {
     return Ok{};
 }
 
-/// What stands for the rows that were pruned.
+/// The digest that stands for the rows that were pruned.
 Result<> Journal::read_log_bases() {
     std::erase_if(heads_, [this](const auto& head) { return find(head.first) == nullptr; });
     if (!has_bases()) return Ok{};
@@ -202,7 +202,7 @@ Result<> Journal::check_tree() const {
     return Ok{};
 }
 
-/// Of a format before 8.
+/// For a format before 8.
 Result<> Journal::check_older_checkpoints() const {
     if (!has_older_checkpoints_) return Ok{};
     for (const CheckpointEntry& entry : checkpoints_)

@@ -16,8 +16,8 @@ namespace roboss {
 /// control programs.
 struct SavedRun {
     std::string world_file;  // as it was given; for messages
-    /// Of the Model of this file, if robots were added to the run, or it was changed in another way; 0: the
-    /// states are of that Model.
+    /// Hash of the Model of this file, if robots were added to the run, or it was changed in another way; 0:
+    /// the states are of that Model.
     std::uint64_t world_hash = 0;
     std::uint64_t seed = 0;           // of the run: for sensor noise and control programs
     Tick tick = 0;                    // at which the run continues

@@ -27,12 +27,12 @@ class RobotSet {
     std::size_t size() const { return robots_.size(); }             ///< rows
     const std::vector<RobotId>& robots() const { return robots_; }  ///< by row
     const Model& model() const { return *model_; }                  ///< of the robots
-    /// What all robots have; joints, links, sensors and commands are counted by it.
+    /// The facts that all robots share; joints, links, sensors and commands are counted by it.
     const SharedParts& shared() const { return shared_; }
     /// Columns of the arrays of joints: each axis of each joint that moves, in the order of the first robot's
     /// file.
     const std::vector<SharedPart>& axes() const { return shared_.axes; }
-    /// What the robot of a row has as those columns.
+    /// The numbers of those columns in the robot of a row.
     const std::vector<JointAxis>& axes_of_row(std::size_t row) const {
         return shared_.axes_of_types[shared_.type_of_row[row]];
     }

@@ -50,7 +50,7 @@ std::optional<std::vector<std::size_t>> by_name(const PartList& list, std::span<
     return of[0] == part ? std::optional(of) : std::nullopt;
 }
 
-/// Whether both have parts of the same kinds in the same order.
+/// True if both have parts of the same kinds in the same order.
 bool same_layout(const PartList& list, const RobotType& a, const RobotType& b) {
     const std::size_t count = list.names(a).size();
     if (a.like != b.like || list.names(b).size() != count) return false;

@@ -27,10 +27,10 @@ struct SharedParts {
         sensors,                             ///< `of`: in RobotType::sensors
         commands;                            ///< `of`: in RobotType::channels
     std::vector<std::vector<JointAxis>> axes_of_types;  ///< by type, then by `axes`
-    /// Whether all are of one type (RobotType::like).
+    /// True if all are of one type (RobotType::like).
     bool one_type = true;
 
-    /// Of robots that exist in the model.
+    /// The parts of robots that exist in the model.
     SharedParts(const Model& model, std::span<const RobotId> robots);
 };
 

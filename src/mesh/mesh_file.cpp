@@ -271,7 +271,7 @@ Vec3 corner_of(const aiMesh& mesh, const aiFace& face, unsigned k) {
     return {p.x, p.y, p.z};
 }
 
-/// Whether the diagonal from the first corner lies inside the quadrangle: both triangles face one way.
+/// True if the diagonal from the first corner lies inside the quadrangle: both triangles face one way.
 bool splits_at_first(const aiMesh& mesh, const aiFace& face) {
     const Vec3 p = corner_of(mesh, face, 0), diagonal = corner_of(mesh, face, 2) - p;
     return dot(cross(corner_of(mesh, face, 1) - p, diagonal), cross(diagonal, corner_of(mesh, face, 3) - p)) >

@@ -89,7 +89,7 @@ ReachSphere reach_sphere_of(const RobotType& type);
 /// (nullptr: none). Needs RobotType::links.
 std::vector<std::pair<int, int>> self_pairs_of(const RobotType& type, const ModelSpec* spec);
 
-/// Whether the joint of a body without mass moves as what hangs on it: then it needs none.
+/// True if the joint of a body without mass moves as what hangs on it: then it needs none.
 bool is_carried_by_what_follows(RobotType& type, std::size_t body);
 
 /// Fills Body::inverse_mass_linear, inverse_inertia_angular and Dof::inverse_inertia from the mass matrix at

@@ -17,7 +17,7 @@ struct JointMove {
     double from = 0, to = 0;
 };
 
-/// What settle_joints() did.
+/// The result of settle_joints().
 struct JointStart {
     std::vector<JointMove> moved;     ///< by more than 1e-3 rad or m
     std::vector<std::size_t> beyond;  ///< in RobotType::dofs: no leader's position keeps them within limits

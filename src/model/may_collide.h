@@ -5,7 +5,7 @@
 
 namespace roboss {
 
-/// Whether the bitmasks let shapes of these materials collide.
+/// True if the bitmasks let shapes of these materials collide.
 bool may_collide(const Material& a, const Material& b);
 
 }  // namespace roboss

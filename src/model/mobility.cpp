@@ -41,7 +41,7 @@ class Mobility {
         for (CoordinateCoupling& coupling : type_.couplings) measure(coupling);
     }
 
-    /// Whether the joint of a body meets, with the joints behind it free, a share of what it would meet with
+    /// True if the joint of a body meets, with the joints behind it free, a share of what it would meet with
     /// them locked: in the poses with all joints at 0, 45 and 90 degrees, where axes fall into line.
     bool carries(const Body& body) {
         constexpr double kLeastShare = 1e-3;

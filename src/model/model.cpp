@@ -44,7 +44,7 @@ void add_body(Hash& hash, const Body& body) {
     if (body.reversed_ball) add(hash, 1);
 }
 
-/// What of a type a hash covers: everything, or what a step reads.
+/// The part of a type that a hash covers: everything, or what a step reads.
 enum class Cover { kAll, kStep };
 
 void add_link(Hash& hash, const Link& link, Cover cover) {

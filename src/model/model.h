@@ -141,7 +141,7 @@ struct CoordinateCoupling {
     double reference = 0;        ///< rad or m, of the leader; of a linear coupling it is part of the offset
     std::array<double, 3> higher{};  ///< of the powers 2 to 4; zeros: linear
 
-    /// Whether the follower does not follow in proportion.
+    /// True if the follower does not follow in proportion.
     bool is_curved() const { return higher[0] != 0 || higher[1] != 0 || higher[2] != 0; }
     /// How far the follower stands from where it should; the multiplications in this order.
     double gap(double follower_at, double leader_at) const {

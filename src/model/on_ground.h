@@ -10,7 +10,7 @@
 
 namespace roboss {
 
-/// What stand_on_ground() did, by names of robots.
+/// The result of stand_on_ground(), by names of robots.
 struct OnGround {
     std::size_t stand = 0;               ///< robots that stand on the ground now
     std::string first;                   ///< of these

@@ -10,7 +10,7 @@
 
 namespace roboss {
 
-/// Whether the text fits the pattern: `*` stands for any characters, `?` for one.
+/// True if the text fits the pattern: `*` stands for any characters, `?` for one.
 bool fits_pattern(std::string_view text, std::string_view pattern);
 
 /// The robot with this name; else those whose names fit it as a pattern, by RobotId, without message boards.

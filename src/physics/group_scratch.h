@@ -25,8 +25,8 @@ struct LaneMember {
     friend auto operator<=>(const LaneMember&, const LaneMember&) = default;
 };
 
-/// Whether lanes are worth a try: how many robots got through lately. On hills each takes other turns in the
-/// solver than its neighbours, on a flat mesh all take the same. No bit depends on it.
+/// Decides if lanes are worth a try: how many robots got through lately. On hills each takes other turns in
+/// the solver than its neighbours, on a flat mesh all take the same. No bit depends on it.
 class LaneLuck {
   public:
     void note(bool stepped) { share_ += ((stepped ? 1.0 : 0.0) - share_) / kLately; }

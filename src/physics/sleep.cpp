@@ -196,7 +196,7 @@ double rest_speed(std::span<Contact* const> contacts, std::span<const SurfacePai
     return speed;
 }
 
-/// What the members of an island have in common in a tick.
+/// The facts that the members of an island share in a tick.
 struct IslandRest {
     bool is_held = false;      // something holds the island
     double dt = 0, speed = 0;  // s, m/s: what is no faster rests

@@ -35,8 +35,8 @@ struct Helper {
     StageClock clock;
 };
 
-/// What helpers step, one after the other: robots, numbers of the call, that may meet, or in lanes, or a
-/// group of those on rough ground, or each alone.
+/// The work that helpers step, one after the other: robots, numbers of the call, that may meet, or in lanes,
+/// or a group of those on rough ground, or each alone.
 struct Unit {
     enum class Kind : std::uint8_t { kGroup, kLanes, kRough, kAlone } kind = Kind::kGroup;
     std::size_t first = 0, last = 0;  // of NearSets::near() or Impl::lone

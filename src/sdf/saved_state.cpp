@@ -26,7 +26,7 @@ std::optional<Pose> pose_in_world(const Element& parent, const Import& import) {
     return import.reader.pose(pose);
 }
 
-/// Of a model of a state; empty: 1 1 1.
+/// The scale of a model of a state; empty: 1 1 1.
 std::optional<Vec3> read_scale(const Element& model, const Import& import) {
     const Element scale = model.child("scale");
     if (!scale) return std::nullopt;

@@ -2,9 +2,7 @@
 #include "sdf/sdf_text.h"
 
 namespace roboss::sdf_import {
-namespace {
 
-/// In one line: white space of any kind separates words in SDF.
 std::string escaped(const std::string& text) {
     std::string result;
     for (const char c : text) switch (c) {
@@ -29,8 +27,6 @@ std::string escaped(const std::string& text) {
         }
     return result;
 }
-
-}  // namespace
 
 pugi::xml_node SdfText::add(pugi::xml_node parent, const char* name, pugi::xml_node from,
                             const std::string& text) {

@@ -11,6 +11,10 @@
 
 namespace roboss::sdf_import {
 
+/// The text as it stands in a value or an attribute, in one line: white space of any kind separates words in
+/// SDF.
+std::string escaped(const std::string& text);
+
 class SdfText {
   public:
     explicit SdfText(const SourceFile& source) : source_(source) {}
@@ -22,7 +26,7 @@ class SdfText {
     /// All of `from`, with what is in it.
     pugi::xml_node copy(pugi::xml_node parent, pugi::xml_node from);
 
-    /// What was made, as a file to be read.
+    /// The finished text, as a file to be read.
     std::unique_ptr<SourceFile> read(Diagnostics& diagnostics) const;
 
   private:

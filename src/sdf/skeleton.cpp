@@ -6,6 +6,7 @@
 
 #include "sdf/element_reader.h"
 #include "sdf/newer_versions.h"
+#include "sdf/sdf_text.h"
 
 namespace roboss::sdf_import {
 namespace {
@@ -192,32 +193,6 @@ class Writer {
         for (const auto word : words) {
             const std::string point = with_decimal_point(word);
             result += (result.empty() ? "" : " ") + (point.empty() ? escaped(std::string(word)) : point);
-        }
-        return result;
-    }
-
-    static std::string escaped(const std::string& text) {
-        std::string result;
-        for (const char c : text) {
-            switch (c) {
-                case '&':
-                    result += "&amp;";
-                    break;
-                case '<':
-                    result += "&lt;";
-                    break;
-                case '>':
-                    result += "&gt;";
-                    break;
-                case '"':
-                    result += "&quot;";
-                    break;
-                case '\n':
-                    result += ' ';
-                    break;  // one element a line
-                default:
-                    result += c;
-            }
         }
         return result;
     }

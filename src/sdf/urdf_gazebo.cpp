@@ -38,7 +38,7 @@ pugi::xml_node need(SdfText& out, pugi::xml_node parent, const char* name, pugi:
     return known ? known : out.add(parent, name, from);
 }
 
-/// What is written for a link, and where SDF has it in a collision.
+/// An element that is written for a link, and where SDF has it in a collision.
 struct SurfaceValue {
     std::initializer_list<std::string_view> names;
     std::initializer_list<const char*> path;
@@ -96,7 +96,7 @@ void extend_link_by(pugi::xml_node node, SdfText& out, pugi::xml_node to) {
     }
 }
 
-/// Of a joint, for solvers of another kind: a note says so where <physics> is read.
+/// Elements of a joint for solvers of another kind: a note says so where <physics> is read.
 bool is_for_solvers(std::string_view name) {
     return is_any(name, {"stopCfm", "stopErp", "stopKp", "stopKd", "fudgeFactor", "cfmDamping",
                          "implicitSpringDamper"});

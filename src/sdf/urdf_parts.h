@@ -54,7 +54,8 @@ void write_origin(const UrdfRobot& robot, pugi::xml_node element, SdfText& out, 
 void write_link(const UrdfRobot& robot, pugi::xml_node link, SdfText& out, pugi::xml_node model);
 void write_joint(const UrdfRobot& robot, pugi::xml_node joint, SdfText& out, pugi::xml_node model);
 
-/// What <gazebo reference="LINK"> says of a link's collisions and visuals, and what it puts into the link.
+/// The content of <gazebo reference="LINK"> for a link's collisions and visuals, and what it puts into the
+/// link.
 void extend_collision(const UrdfRobot& robot, const std::string& link, SdfText& out,
                       pugi::xml_node collision);
 /// True if it gives the visual a material.

@@ -12,7 +12,7 @@ namespace roboss::sdf_import {
 /// itself.
 void repair_urdf(pugi::xml_node robot, const SourceFile& urdf, Diagnostics& diagnostics);
 
-/// What stands or moves where masses are missing, each with a warning:
+/// Links that stand or move where masses are missing, each with a warning:
 /// - a robot without mass and without a joint that moves becomes a static model, as in PyBullet;
 /// - a robot without mass of which joints move gets its masses from its collisions, as in MuJoCo;
 /// - a root without mass is fixed to the world, as in MuJoCo.

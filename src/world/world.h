@@ -198,7 +198,7 @@ struct MimicSpec {
     std::string element;  ///< of the leader's axis, if its type has it (JointType::axes); else `axis` counts
     std::array<double, 3> higher{};  ///< of the powers 2 to 4 (MJCF `polycoef`); zeros: in proportion
 
-    /// Whether it follows in proportion.
+    /// True if it follows in proportion.
     bool is_linear() const { return higher[0] == 0 && higher[1] == 0 && higher[2] == 0; }
 };
 

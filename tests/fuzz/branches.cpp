@@ -92,7 +92,7 @@ class RecordedRun {
         writer_.reset();
     }
     bool whole() const { return whole_; }
-    /// Of each branch, by tick.
+    /// The hashes of each branch, by tick.
     const std::map<BranchId, std::map<Tick, std::uint64_t>>& hashes() const { return hashes_; }
 
   private:

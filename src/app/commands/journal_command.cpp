@@ -234,7 +234,7 @@ void print_line(const Json& o) {
     fmt::print("{}\n", o.dump(-1, ' ', false, Json::error_handler_t::replace));
 }
 
-/// What a branch of a lineage has of it from a tick on, as JSON lines, in the order of time. Orders that
+/// The log that a branch of a lineage has from a tick on, as JSON lines, in the order of time. Orders that
 /// apply when the next branch has begun are in the log of that one.
 int export_part(const Journal& journal, const Lineage& lineage, const Lineage::Part& part, Tick from,
                 bool orders_only) {

@@ -32,7 +32,7 @@ struct Summary {
     std::size_t simulators = 0;    // at the end
     std::optional<StepProfile> profile;  // with --profile-steps
     double friction_tolerance = 0;       // of the world's accuracy
-    /// Of a replay: recorded states that were compared and are equal, and whether one was not.
+    /// In a replay: recorded states that were compared and are equal, and whether one was not.
     struct Replayed {
         std::size_t equal = 0;
         bool differs = false;

@@ -211,7 +211,7 @@ class Run {
         false;  // Simulator processes of this run failed: no process is left that has the states
 };
 
-/// Whether a run prints the finding: all but notes, and notes about where robots start ("start-moved" ...).
+/// True if a run prints the finding: all but notes, and notes about where robots start ("start-moved" ...).
 bool is_told_by_run(const Diagnostic& diagnostic);
 void print(const Error& error);
 

@@ -18,7 +18,7 @@ class RunJournal {
     static Result<std::unique_ptr<RunJournal>> open(const RunOptions& options, const Model& model);
     /// For --replay, which needs no world.
     static Result<std::unique_ptr<RunJournal>> open_replay(const RunOptions& options);
-    /// What to step again, and what must come of it: one branch of the lineage after the other.
+    /// The run to step again, and the states that it must reach: one branch of the lineage after the other.
     struct Replay {
         Lineage lineage;
         Lineage::Part part;  // of it, that is stepped now
@@ -38,12 +38,12 @@ class RunJournal {
     /// Recorded states that were compared and are equal, and whether one was not.
     std::size_t compared() const { return compared_; }
     bool differs() const { return differs_; }
-    /// Of a replay: hash of the Model of the world file.
+    /// In a replay: hash of the Model of the world file.
     std::uint64_t world_hash() const { return world_hash_; }
 
     /// The file that can be looked into: the journal, or the file that is replayed; empty: none.
     const std::string& file() const { return file_; }
-    /// Of that file; of a replay the one whose lineage is replayed; 0: none.
+    /// Branch of that file; in a replay the one whose lineage is replayed; 0: none.
     BranchId branch() const;
     /// RunStatus::timeline.
     std::uint64_t timeline_serial() const;

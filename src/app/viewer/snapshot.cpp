@@ -23,8 +23,8 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 constexpr auto kPatience = std::chrono::seconds(180);
-/// What the page still waits for before it shows what its address asks for, once it has drawn all that it
-/// has.
+/// The thing that the page still waits for before it shows what its address asks for, once it has drawn all
+/// that it has.
 const char* const kWaits =
     "new Promise(done => requestAnimationFrame(() => requestAnimationFrame(() => "
     "done(window.roboss ? window.roboss.waits() : 'the page'))))";

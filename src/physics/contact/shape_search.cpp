@@ -17,7 +17,7 @@ void find_loose(const RobotWork& robot, const Aabb& box, std::vector<std::uint32
         if (overlaps(robot.shapes[s].box, box)) out.push_back(s);
 }
 
-/// Whether a box along the axes of X comes below a plane by no more than `margin` above it.
+/// True if a box along the axes of X comes below a plane by no more than `margin` above it.
 bool reaches_plane(const Transform& X, const Aabb& box, const Transform& X_WP, double margin) {
     const Vec3 n = transpose_times(X.R, X_WP.R.col(2)), half = (box.max - box.min) * 0.5;
     const double spread = std::fabs(n.x) * half.x + std::fabs(n.y) * half.y + std::fabs(n.z) * half.z;

@@ -128,7 +128,7 @@ TEST(SoftContact, ThrowsNothingThatAnOrderPutIntoTheGround) {
     EXPECT_LE(speed_out_of(sim, sim.time() + 1), 0.1);
 }
 
-/// What falls onto a spring gets back what it brought, however slowly its surfaces recover.
+/// A ball that falls onto a spring gets its energy back, however slowly its surfaces recover.
 TEST(SoftContact, ReboundsWhateverTheSpeedOfRecovery) {
     std::vector<double> heights;
     for (const double max_vel : {-1.0, 0.01}) {

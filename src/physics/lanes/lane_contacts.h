@@ -39,7 +39,7 @@ class LaneContacts {
 
     /// Contacts found elsewhere.
     void take(std::size_t lane, std::span<Contact> contacts) { spans_[lane] = contacts; }
-    /// Of the lanes `present`, those that have as many contact points of the same shapes as the first, or as
+    /// Those of the lanes `present` that have as many contact points of the same shapes as the first, or as
     /// another if that are more; none if a surface is not plain.
     unsigned alike(const Model& model, const RobotType& type, unsigned present) const;
 
