@@ -14,7 +14,7 @@ from .world import World
 class Journal:
     """The file that `roboss run --journal FILE` writes, or a saved run. It is read only, also while a run writes it.
 
-    A journal has branches: a run that went back, or whose robots or accuracy were changed, goes on in a new one. What
+    A journal has branches: a run that went back, or whose robots or accuracy were changed, continues in a new one. What
     led to a branch is in the branches before it (`lineage`), and everything here goes through them. `branch` is a number
     of `branches`; None: the youngest.
 
@@ -43,7 +43,7 @@ class Journal:
         return self._worlds[found.id]
 
     def lineage(self, branch: Optional[int] = None) -> tuple[tuple[int, float, float], ...]:
-        """Branches that led to this one, the oldest first: (number, first time, time at which the next goes on), s."""
+        """Branches that led to this one, the oldest first: (number, first time, time at which the next continues), s."""
         found, dt = self._branch(branch), self.world(branch).dt
         return tuple((number, first * dt, until * dt) for number, first, until in self._core.lineage(found.id))
 
@@ -147,7 +147,7 @@ class _Replay(Simulation):
                 for part in self._parts if part[1] * self.dt <= until + 1e-9]
 
     def _turn(self) -> None:
-        """Goes on in the next branch.
+        """Continues in the next branch.
 
         Raises:
             StateError: orders or changes of this program have led elsewhere (code "own-way").
@@ -158,7 +158,7 @@ class _Replay(Simulation):
         ends = {branch.id: branch for branch in journal.branches}[self._branch]
         known = core.hash if before.hash == after.hash else ends.last_hash if ends.last_tick == part[1] else ""
         if known and self.state_hash != known:
-            raise StateError(f"the simulation has left the recording, which goes on in branch {part[0]} at {self.time:g} s",
+            raise StateError(f"the simulation has left the recording, which continues in branch {part[0]} at {self.time:g} s",
                              "go there by Journal.at(), or leave the recording from the start: follow=False", "own-way")
         self._parts, self._branch = self._parts[1:], part[0]
         if before.hash == after.hash:

@@ -111,7 +111,7 @@ Spawned spawn(Simulation& simulation, const std::shared_ptr<const Model>& additi
               bool on_ground) {
     std::vector<CopyPlace> places;
     for (std::size_t i = 0; i < names.size(); ++i) places.push_back({names[i], pose_at(poses[i].data())});
-    const std::vector<RobotState>& states = simulation.run().states();  // nobody is inside
+    const std::vector<RobotState>& states = simulation.run().states();  // no other thread uses it
     const ModelEdit edit = value_or_raise(with_models(*simulation.model(), *addition, places,
                                                       on_ground ? Standing::kOnGround : Standing::kAsPlaced),
                                           "WorldError");

@@ -1,4 +1,4 @@
-// Boxes of frames that are turned against each other: none that meet are told apart, and trees find all
+// Boxes of frames that are turned against each other: boxes that meet are never separated, and trees find all
 // pairs.
 #include "geometry/box_frames.h"
 

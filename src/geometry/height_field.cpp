@@ -63,7 +63,7 @@ void HeightField::query(const Aabb& box, std::vector<std::uint32_t>& out) const 
             const double x = x0_ + dx_ * static_cast<double>(i), left = (box.min.x - x) * dy_,
                          right = (box.max.x - x) * dy_;
             const auto number = static_cast<std::uint32_t>(2 * (j * (columns_ - 1) + i));
-            // What has sunk below a cell may be nearest to either half.
+            // A body that has sunk below a cell may be nearest to either half.
             const bool sunk = box.max.z < std::min({h[0], h[1], h[columns_], h[columns_ + 1]});
             if (std::max(across, h[1]) >= box.min.z && (sunk || right >= front - sliver))
                 out.push_back(number);

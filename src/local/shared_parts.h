@@ -1,4 +1,4 @@
-// What the robots of a set have in common, by name: the columns of their arrays, whatever types they are of.
+// The parts that the robots of a set share by name: the columns of their arrays, whatever types they are of.
 #pragma once
 
 #include <cstdint>

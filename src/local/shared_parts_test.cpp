@@ -1,4 +1,4 @@
-// What robots of one type, and of several, have in common.
+// The parts that robots of one type, and of several, share.
 #include "local/shared_parts.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// Joints with an effort limit of 0: exporters write effort="0" velocity="0" where nobody filled the fields
+// Joints with an effort limit of 0: exporters write effort="0" velocity="0" where the fields were left empty
 // in.
 #include <algorithm>
 

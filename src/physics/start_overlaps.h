@@ -1,5 +1,5 @@
-// What lies in what at the start: overlaps so deep that pushing them apart would throw a robot. For `roboss
-// check` and `roboss run`, which warn; nothing of a step.
+// Overlaps at the start that are so deep that pushing them apart would throw a robot. `roboss check` and
+// `roboss run` warn of them; a step does not use this file.
 #pragma once
 
 #include <cstddef>

@@ -1,4 +1,4 @@
-// What is told of robots that start in each other or in the scenery.
+// Warnings about robots that start in each other or in the scenery.
 #include <gtest/gtest.h>
 
 #include <support/compiling.h>

@@ -3,9 +3,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cctype>
 #include <map>
-#include <tuple>
+#include <utility>
 
 namespace roboss {
 namespace {

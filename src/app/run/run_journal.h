@@ -30,7 +30,7 @@ class RunJournal {
     /// Turns the replay to another time of the file; branch 0: the lineage that is replayed. It begins at
     /// from() and is to be stepped to start().
     Result<> seek(BranchId branch, double time_s);
-    /// At this tick the replay goes on in the next branch of its lineage: see go_on().
+    /// At this tick the replay continues in the next branch of its lineage: see go_on().
     bool turns_at(Tick now) const;
     /// Turns to the next branch, where from() is; `hash`: of the world where the one before was left. An
     /// Error: the next branch did not begin there.
@@ -52,7 +52,7 @@ class RunJournal {
     std::uint64_t bytes() const;
     /// MB per minute of real time by which the file grew in the last minute.
     double growth_mb_per_min(std::int64_t now_ms);
-    /// The next tick whose hash is known, or at which the replay goes on in another branch.
+    /// The next tick whose hash is known, or at which the replay continues in another branch.
     Tick next_check(Tick now) const;
     /// Compares the hash with the one recorded for this tick, if any.
     Result<> check(Tick now, std::uint64_t hash);

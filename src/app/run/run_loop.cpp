@@ -136,12 +136,12 @@ Tick Run::last_tick() const {
     return journal_->replay() ? journal_->replay()->lineage.last() : kNever;
 }
 
-/// The replay goes on in the next branch of its lineage, perhaps with other robots.
+/// The replay continues in the next branch of its lineage, perhaps with other robots.
 bool Run::go_on() {
     Result<> turned = journal_->go_on(simulation_->hash());
     if (turned) turned = restart(journal_->replay()->model, *journal_->from(), false);
     if (!turned) return stop(turned.error()), false;
-    notices_.push_back(fmt::format("at {:.6f} s the replay goes on in branch {} ({}) [branch]",
+    notices_.push_back(fmt::format("at {:.6f} s the replay continues in branch {} ({}) [branch]",
                                    simulation_->time_s(), journal_->replay()->branch.id,
                                    journal_->replay()->branch.reason));
     return true;

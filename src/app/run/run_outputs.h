@@ -1,4 +1,4 @@
-// What a run reads and writes: no output may replace an input or a file of another kind.
+// The files that a run reads and writes: no output may replace an input or a file of another kind.
 #pragma once
 
 #include <string>

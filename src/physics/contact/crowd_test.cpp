@@ -102,7 +102,7 @@ void expect_all_pairs(const ModelSpec& scenery) {
         std::vector<Found> found(2);
         for (const Contact& c : contacts)
             ++found[static_cast<std::size_t>(c.robot_a)][{c.robot_b, c.shape_a, c.shape_b}];
-        // What the motion leads past each other is no contact, but it was found.
+        // A pair that the motion leads past each other is no contact, but it was found.
         for (const NearMiss& m : finder.near_misses())
             found[static_cast<std::size_t>(m.robot_a)].try_emplace({m.robot_b, m.shape_a, m.shape_b}, 0);
         for (std::size_t a = 0; a < 2; ++a) {

@@ -156,8 +156,8 @@ struct ContactRowT {
     FrictionDiscT<T> slip;
     T warm_start_max{};  // of its normal impulse, what may count as a load and not as a blow
     bool soft = false;   // a spring and damper
-    // Of a soft one, over dt: the overlap that no motion made; the whole at the end of the tick, if it gave
-    // no impulse.
+    // The overlap of a soft contact, over dt, that no motion made; the whole at the end of the tick, if it
+    // gave no impulse.
     T unsprung{}, overlap{};
     bool joins = false;  // both sides have columns: two robots, or a robot that touches itself
     // It carried a load in the last tick and did not slide: it probably will not now.
