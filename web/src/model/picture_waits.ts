@@ -1,6 +1,6 @@
 // What a picture of the page would still miss of what the page was asked to show. `roboss snapshot` takes none before this is
 // empty: on a busy machine reports come late, and a page without news draws its last moment under a veil.
-import { OVERLAY_PARTS } from "../wire/messages";
+import { OVERLAY_PARTS } from "../wire/overlay";
 import type { Overlay, ViewerState } from "./viewer_state";
 
 /** They draw what the report of the selected robot says. */

@@ -3,7 +3,7 @@
 import { Connection, type LinkState } from "../wire/connection";
 import type { Probe } from "../wire/probe";
 import { RATE_MAX, VERSION, WATCHED_CAMERAS_MAX, WATCHED_ROBOTS_MAX } from "../protocol";
-import { OVERLAY_PARTS } from "../wire/messages";
+import { OVERLAY_PARTS } from "../wire/overlay";
 import type { Answer, Incoming, OrderAction, Watch } from "../wire/messages";
 import { isPicture, readPicture } from "../wire/picture";
 import { loadScene } from "../wire/scene_source";

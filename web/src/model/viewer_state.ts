@@ -1,6 +1,7 @@
 // What the page knows and what its person chose, as signals. Every panel and every layer of the picture follows these;
 // none knows another.
-import type { Groups, OverlayPart, OverlayReport, RobotReport, Status } from "../wire/messages";
+import type { Groups, RobotReport, Status } from "../wire/messages";
+import type { OverlayPart, OverlayReport } from "../wire/overlay";
 import type { StepProfile } from "../wire/profile";
 import type { LinkState } from "../wire/connection";
 import type { Probe } from "../wire/probe";

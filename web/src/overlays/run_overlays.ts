@@ -2,7 +2,7 @@
 // ground round robots that may touch.
 import * as THREE from "three";
 import type { ViewerState, World } from "../model/viewer_state";
-import type { ContactReport, OverlayReport } from "../wire/messages";
+import type { ContactReport, OverlayReport } from "../wire/overlay";
 import { groupColour } from "../view/palette";
 import type { Stage } from "../view/stage";
 import { ArrowField } from "./arrow_field";

@@ -3,7 +3,7 @@
 import type { BondReport, ChannelInfo, ChannelReport, Extras, FlowInfo, OnboardAction, SurfaceReport } from "./onboard";
 import type { LightInfo, LookInfo } from "./look";
 import type { StepProfile } from "./profile";
-import type { RadioReport } from "./radio";
+import type { OverlayReport } from "./overlay";
 import type { Roles } from "./roles";
 import type { PreviewInfo, Timeline } from "./timeline";
 import type { Visual } from "./visual";
@@ -193,14 +193,6 @@ export interface SensorReport {
     [field: string]: unknown;
 }
 
-export interface ContactReport {
-    a: number;
-    b: number;
-    point: Triple;
-    normal: Triple;
-    force: Triple;
-}
-
 /** What a robot's own state remembers of a contact; `other` -1 is scenery. */
 export interface RobotContact {
     other: number;
@@ -226,19 +218,6 @@ export interface RobotReport {
     bonds?: BondReport[];
     held_by?: BondReport[];
 }
-
-export interface OverlayReport {
-    type: "overlay";
-    scene: number;
-    tick: number;
-    contacts?: ContactReport[];
-    radio?: RadioReport;
-    bounds?: { robot: number; box: [Triple, Triple] | number[] }[];
-}
-
-/** The parts of an OverlayReport; a message has some of them. */
-export const OVERLAY_PARTS = ["contacts", "radio", "bounds"] as const;
-export type OverlayPart = (typeof OVERLAY_PARTS)[number];
 
 export interface Hello {
     type: "hello";
