@@ -7,7 +7,7 @@
 #include <fstream>
 
 #include "cluster/crowd.h"
-#include "cluster/dds_costs.h"
+#include "cluster/network_costs.h"
 #include "cluster/measure.h"
 
 namespace {
@@ -122,7 +122,7 @@ int main(int argc, char** argv) try {
     BenchOptions w;
     add_options(app, w);
     CLI11_PARSE(app, argc, argv);
-    if (w.send_us < 0 || w.way_us < 0) w.settings.network = measure_dds(2000);
+    if (w.send_us < 0 || w.way_us < 0) w.settings.network = measure_network(2000);
     if (w.send_us >= 0) w.settings.network.send_us = w.send_us;
     if (w.way_us >= 0) w.settings.network.way_us = w.way_us;
     std::printf("a message costs %.1f us of CPU time to send and is %.1f us on the way\n",

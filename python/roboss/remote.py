@@ -23,7 +23,7 @@ _log = logging.getLogger("roboss")
 
 
 def connect(simulation: str = "default", *, name: str = "python", period: int = 10, latency: int = 0,
-            interface: str = "127.0.0.1", domain: int = 0, peers: Sequence[str] = (), discovery_server: str = "",
+            controller: str = "", keys: Union[str, Path] = "", insecure: bool = False,
             patience: float = 10.0) -> RemoteSimulation:
     """Joins a run of `roboss controller`, on this computer or on a cluster, as a Client that steps it.
 
@@ -36,17 +36,19 @@ def connect(simulation: str = "default", *, name: str = "python", period: int = 
         period: ticks between two observations; `step` takes multiples of it.
         latency: ticks from an observation to the effect of the orders that are given at it. With 0, states are those
             that a Simulation would have; more lets the cluster compute ahead meanwhile.
-        interface, domain, peers, discovery_server: the network, as the options of `roboss controller`.
+        controller: HOST or HOST:PORT of the Controller; empty: that of `simulation` on this computer.
+        keys: folder with this program's key (`roboss keys`); empty: that of the run, on the Controller's computer.
+        insecure: join a Controller that was started with `--insecure`, without keys and encryption.
         patience: s without a Controller after which ClusterError is raised (code "no-controller").
 
     Raises:
-        ClusterError: no Controller is found, or it refuses this Client.
+        ClusterError: no Controller is found, or it refuses this Client; a key is missing or not accepted.
         ArgumentError: a period or latency that cannot be.
     """
     period, latency = whole("period", period, 1), whole("latency", latency)
     core = _core.connect(text("simulation", simulation), text("name", name), period, latency,
-                         real("patience", patience, 0), text("interface", interface), whole("domain", domain, 0, 232),
-                         names_of("peers", listed("peers", peers)), text("discovery_server", discovery_server))
+                         real("patience", patience, 0), text("controller", controller),
+                         file_path("keys", keys), flag("insecure", insecure))
     return RemoteSimulation(core, f"<simulation '{simulation}'>")
 
 

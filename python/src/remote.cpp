@@ -150,15 +150,12 @@ void bind_remote(nb::module_& module) {
     module.def(
         "connect",
         [](std::string simulation, std::string name, Tick period, Tick latency, double patience,
-           std::string interface, std::uint32_t domain, std::vector<std::string> peers,
-           std::string discovery_server) {
+           std::string controller, std::string keys, bool insecure) {
             RemoteOptions options;
             options.network.simulation = std::move(simulation);
-            options.network.interface = std::move(interface);
-            options.network.domain = domain;
-            options.network.multicast = peers.empty();
-            options.network.peers = std::move(peers);
-            options.network.discovery_server = std::move(discovery_server);
+            options.network.controller = std::move(controller);
+            options.network.keys = std::move(keys);
+            options.network.insecure = insecure;
             options.name = std::move(name);
             options.period = period;
             options.latency = latency;
@@ -167,7 +164,7 @@ void bind_remote(nb::module_& module) {
             return connect(options);
         },
         nb::arg("simulation"), nb::arg("name"), nb::arg("period"), nb::arg("latency"), nb::arg("patience"),
-        nb::arg("interface"), nb::arg("domain"), nb::arg("peers"), nb::arg("discovery_server"));
+        nb::arg("controller"), nb::arg("keys"), nb::arg("insecure"));
 }
 
 }  // namespace roboss_python

@@ -98,8 +98,8 @@ def test_no_wrong_type_shows_the_text_of_the_bindings(own, tmp_path, monkeypatch
     assert not poor, f"{len(poor)} of {tried}:\n" + "\n".join(poor)
 
 
-@pytest.mark.parametrize("parameter", ["simulation", "name", "period", "latency", "interface", "domain", "peers",
-                                       "discovery_server", "patience"])
+@pytest.mark.parametrize("parameter", ["simulation", "name", "period", "latency", "controller", "keys", "insecure",
+                                       "patience"])
 def test_connect_checks_types_before_it_opens_a_network(parameter):
     for wrong in (None, object(), [3]):
         with pytest.raises(roboss.ArgumentError) as error:

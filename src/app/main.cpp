@@ -14,6 +14,7 @@
 #include "app/commands/diff_command.h"
 #include "app/commands/help_text.h"
 #include "app/commands/journal_command.h"
+#include "app/commands/keys_command.h"
 #include "app/commands/new_client_command.h"
 #include "app/commands/python_command.h"
 #include "app/commands/run_command.h"
@@ -35,7 +36,7 @@ void group_commands(CLI::App& app) {
         {"Drive real robots", {"device"}},
         {"Control and keep a run", {"control", "runs", "save", "replay", "journal", "diff"}},
         {"Look into a run", {"record", "plot", "analyse", "calibrate"}},
-        {"Members of a run on several computers", {"controller", "simulator", "client", "view", "cluster"}}};
+        {"Members of a run on several computers", {"controller", "simulator", "client", "view", "cluster", "keys"}}};
     for (const auto& [group, commands] : groups)
         for (const char* command : commands) app.get_subcommand(command)->group(group);
 }
@@ -72,6 +73,7 @@ int main(int argc, char** argv) {
     roboss::add_client_command(app, exit_code);
     roboss::add_view_command(app, exit_code);
     roboss::add_cluster_command(app, exit_code);
+    roboss::add_keys_command(app, exit_code);
     roboss::add_python_commands(app, exit_code);
     group_commands(app);
     if (const std::optional<int> ended = roboss::read_command_line(app, argc, argv)) return *ended;

@@ -5,7 +5,7 @@
 
 #include "bus/model_pull.h"
 #include "client/bus_client.h"
-#include "dds/dds_bus.h"
+#include "net/stream_bus.h"
 #include "visuals/visual_fetch.h"
 
 namespace roboss {
@@ -20,10 +20,10 @@ Address client_address() {
 }
 
 Error no_controller(const RemoteOptions& options) {
-    return {"no Controller of simulation '" + options.network.simulation + "' (interface " +
-                options.network.interface + ", domain " + std::to_string(options.network.domain) +
-                ") was found for " + std::to_string(static_cast<int>(options.patience_s)) + " s",
-            "start `roboss controller` with the same --simulation, --domain and network", "no-controller"};
+    return {"no Controller of " + describe(options.network) + " was found for " +
+                std::to_string(static_cast<int>(options.patience_s)) + " s",
+            "start `roboss controller` with the same --simulation, or give the address of its computer",
+            "no-controller"};
 }
 
 Error interrupted() {
@@ -33,11 +33,12 @@ Error interrupted() {
 /// Why waiting ends, or nothing: a Controller is there.
 class Patience {
   public:
-    Patience(DdsBus& bus, const RemoteOptions& options) : bus_(bus), o_(options), seen_ms_(bus.now_ms()) {}
+    Patience(StreamBus& bus, const RemoteOptions& options) : bus_(bus), o_(options), seen_ms_(bus.now_ms()) {}
 
     Result<> wait(const RemoteRun::GoOn& go_on) {
         bus_.wait(kTurn_ms);
         if (!go_on()) return interrupted();
+        if (std::optional<Error> refusal = bus_.refusal()) return *refusal;
         const std::int64_t now = bus_.now_ms();
         if (bus_.present(kControllerAddress)) seen_ms_ = now;
         if (static_cast<double>(now - seen_ms_) > 1e3 * o_.patience_s) return no_controller(o_);
@@ -45,7 +46,7 @@ class Patience {
     }
 
   private:
-    DdsBus& bus_;
+    StreamBus& bus_;
     const RemoteOptions& o_;
     std::int64_t seen_ms_;
 };
@@ -53,7 +54,7 @@ class Patience {
 }  // namespace
 
 RemoteRun::RemoteRun(std::shared_ptr<const Model> model, const RemoteOptions& options,
-                     std::unique_ptr<DdsBus> bus, std::unique_ptr<BusClient> client)
+                     std::unique_ptr<StreamBus> bus, std::unique_ptr<BusClient> client)
     : RunAccess(std::move(model)), options_(options), bus_(std::move(bus)), client_(std::move(client)) {}
 RemoteRun::~RemoteRun() = default;
 
@@ -80,12 +81,12 @@ void RemoteRun::advance() {
 }
 
 Result<std::unique_ptr<RemoteRun>> RemoteRun::connect(const RemoteOptions& options, const GoOn& go_on) {
-    Result<std::unique_ptr<DdsBus>> opened = DdsBus::create(options.network);
+    Result<std::unique_ptr<StreamBus>> opened = StreamBus::join(options.network, "client", options.name);
     if (!opened) return opened.error();
     return join(options, std::move(opened).value(), go_on);
 }
 
-Result<std::unique_ptr<RemoteRun>> RemoteRun::join(const RemoteOptions& options, std::unique_ptr<DdsBus> bus,
+Result<std::unique_ptr<RemoteRun>> RemoteRun::join(const RemoteOptions& options, std::unique_ptr<StreamBus> bus,
                                                    const GoOn& go_on) {
     const Address self = client_address();
     Patience patience(*bus, options);

@@ -1,5 +1,5 @@
 // RemoteRun: a run of a Controller elsewhere, as a program sees it that steps it: a synchronous Client over
-// DDS. The world waits at each observation until the program steps on. Its states are those of the cluster,
+// the network. The world waits at each observation until the program steps on. Its states are those of the cluster,
 // bit for bit, with the arrays and sensors of a LocalRun.
 #pragma once
 
@@ -10,17 +10,17 @@
 #include <vector>
 
 #include "client/client.h"
-#include "dds/dds_options.h"
 #include "local/run_access.h"
+#include "net/net_options.h"
 
 namespace roboss {
 
 class BusClient;
-class DdsBus;
+class StreamBus;
 
 /// Which run a RemoteRun joins, and as whom.
 struct RemoteOptions {
-    DdsOptions network{};         ///< where the Controller is
+    NetOptions network{};         ///< where the Controller is
     std::string name = "remote";  ///< as a Client; unique in the run
     Tick period = 1;              ///< ticks between observations
     Tick latency = 0;             ///< ticks from an observation to the effect of its orders
@@ -74,9 +74,9 @@ class RemoteRun final : public RunAccess {
     void leave();
 
   private:
-    RemoteRun(std::shared_ptr<const Model> model, const RemoteOptions& options, std::unique_ptr<DdsBus> bus,
+    RemoteRun(std::shared_ptr<const Model> model, const RemoteOptions& options, std::unique_ptr<StreamBus> bus,
               std::unique_ptr<BusClient> client);
-    static Result<std::unique_ptr<RemoteRun>> join(const RemoteOptions& options, std::unique_ptr<DdsBus> bus,
+    static Result<std::unique_ptr<RemoteRun>> join(const RemoteOptions& options, std::unique_ptr<StreamBus> bus,
                                                    const GoOn& go_on);
     /// Waits until done(), advancing the Client; also while the Model is another one, if `even_outdated`.
     Result<> wait_until(const std::function<bool()>& done, const GoOn& go_on, bool even_outdated = false);
@@ -85,7 +85,7 @@ class RemoteRun final : public RunAccess {
                                               bool even_outdated);
 
     RemoteOptions options_;
-    std::unique_ptr<DdsBus> bus_;
+    std::unique_ptr<StreamBus> bus_;
     std::unique_ptr<BusClient> client_;
     Tick until_ = 0;  // of the step() under way
 };

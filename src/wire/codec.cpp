@@ -493,14 +493,32 @@ std::vector<std::uint8_t> encode(const Envelope& envelope) {
     return a.take();
 }
 
-Result<Envelope> decode_envelope(std::span<const std::uint8_t> bytes) {
-    wire::Reader a(bytes);
+namespace {
+
+/// Takes the version at the start of a message; an Error: it is another one.
+Result<> take_version(wire::Reader& a) {
     std::uint16_t version = 0;
     a.scalar(version);
-    if (!a.failed() && version != kWireVersion)
-        return Error{"a message of wire version " + std::to_string(version) + ", this program speaks " +
-                         std::to_string(kWireVersion),
-                     "run the same version of RoBOSS everywhere"};
+    if (a.failed() || version == kWireVersion) return Ok{};
+    return Error{"a message of wire version " + std::to_string(version) + ", this program speaks " +
+                     std::to_string(kWireVersion),
+                 "run the same version of RoBOSS everywhere"};
+}
+
+}  // namespace
+
+Result<EnvelopeEnds> decode_ends(std::span<const std::uint8_t> bytes) {
+    wire::Reader a(bytes);
+    if (Result<> version = take_version(a); !version) return version.error();
+    EnvelopeEnds ends;
+    wire::fields(a, ends.from, ends.to);
+    if (!a.failed()) return ends;
+    return Error{"a damaged message: " + a.failure(), "check what else sends to this port"};
+}
+
+Result<Envelope> decode_envelope(std::span<const std::uint8_t> bytes) {
+    wire::Reader a(bytes);
+    if (Result<> version = take_version(a); !version) return version.error();
     Envelope envelope;
     wire::fields(a, envelope.from, envelope.to, envelope.message);
     if (a.left() > 0) a.fail("bytes are left over behind it");
@@ -511,7 +529,7 @@ Result<Envelope> decode_envelope(std::span<const std::uint8_t> bytes) {
     if (!a.failed()) return envelope;
     return Error{"a damaged message of " + std::to_string(bytes.size()) + " bytes (" +
                      message_name(envelope.message) + "): " + a.failure(),
-                 "check the network, or what else sends on this domain"};
+                 "check what else sends to this port"};
 }
 
 std::vector<std::uint8_t> encode_orders(const std::vector<Order>& orders) {

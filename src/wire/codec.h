@@ -19,6 +19,12 @@ inline constexpr std::uint16_t kWireVersion = 16;
 std::vector<std::uint8_t> encode(const Envelope& envelope);
 Result<Envelope> decode_envelope(std::span<const std::uint8_t> bytes);
 
+/// Sender and receiver of an encoded Envelope, for who passes it on without reading the rest.
+struct EnvelopeEnds {
+    Address from, to;
+};
+Result<EnvelopeEnds> decode_ends(std::span<const std::uint8_t> bytes);
+
 /// A list of orders alone, for files.
 std::vector<std::uint8_t> encode_orders(const std::vector<Order>& orders);
 Result<std::vector<Order>> decode_orders(std::span<const std::uint8_t> bytes);

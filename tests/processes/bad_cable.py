@@ -64,7 +64,6 @@ class Hosts:
             ip("-n", host, "addr", "add", f"{self.address(i)}/24", "dev", "eth0")
             ip("-n", host, "link", "set", "lo", "up")
             ip("-n", host, "link", "set", "eth0", "up")
-            ip("-n", host, "route", "add", "224.0.0.0/4", "dev", "eth0")
         self.thread = threading.Thread(target=self.switch, daemon=True)
         self.thread.start()
         return self

@@ -8,7 +8,7 @@ import unittest
 import zlib
 
 from members import DRIVER as EYES
-from members import FOLDER, NETWORK, ROBOSS, Cluster, embedded
+from members import FOLDER, ROBOSS, Cluster, embedded
 
 ROBOTS = 100
 PERIOD = 50  # ticks between two observations of the program, and until its orders have effect
@@ -123,7 +123,7 @@ class Cameras(unittest.TestCase):
             self.assertEqual(client.end(20), 0, client.said())
 
     def ask(self, cluster, *words):
-        done = subprocess.run([ROBOSS, "control", "--simulation", cluster.name, *NETWORK, "--quiet", *map(str, words)],
+        done = subprocess.run([ROBOSS, "control", "--simulation", cluster.name, *cluster.place, "--quiet", *map(str, words)],
                               capture_output=True, text=True, timeout=60)
         self.assertEqual(done.returncode, 0, f"{words}: {done.stdout}{done.stderr}")
 

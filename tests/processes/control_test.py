@@ -6,7 +6,7 @@ import subprocess
 import time
 import unittest
 
-from members import DRIVER, FOLDER, NETWORK, ROBOSS, WORLDS, Cluster, embedded
+from members import DRIVER, FOLDER, ROBOSS, WORLDS, Cluster, embedded
 
 CITY = [WORLDS / "city.sdf", "--until", 1.2, "--seed", 7]
 PILE = [WORLDS / "pile.sdf", "--until", 2.0]
@@ -21,7 +21,7 @@ def journal(*arguments):
 
 class Control(unittest.TestCase):
     def ask(self, cluster, *words, code=0):
-        done = subprocess.run([ROBOSS, "control", "--simulation", cluster.name, *NETWORK, "--quiet", *map(str, words)],
+        done = subprocess.run([ROBOSS, "control", "--simulation", cluster.name, *cluster.place, "--quiet", *map(str, words)],
                               capture_output=True, text=True, timeout=60)
         self.assertEqual(done.returncode, code, f"{words}: {done.stdout}{done.stderr}")
         return done.stdout + done.stderr

@@ -1,6 +1,7 @@
 """Starts the processes of a run for tests, on the loopback interface, and ends them by their ids."""
 import json
 import os
+import socket
 import subprocess
 import sys
 import tempfile
@@ -10,12 +11,18 @@ from pathlib import Path
 ROBOSS, DRIVER, WORLDS = sys.argv[1], sys.argv[2], Path(sys.argv[3])
 del sys.argv[1:4]
 FOLDER = Path(tempfile.mkdtemp(prefix="roboss_test_"))
-NETWORK = ["--domain", "91", "--no-multicast", "--peer", "127.0.0.1"]
 
 
 def as_fast_as_possible(arguments):
     """The option for it, unless a speed is given: with a viewer the default is real time."""
     return [] if "--speed" in arguments else ["--speed", "max"]
+
+
+def free_port():
+    """A TCP port of this computer that nobody uses now."""
+    with socket.socket() as probe:
+        probe.bind(("127.0.0.1", 0))
+        return probe.getsockname()[1]
 
 
 class Member:
@@ -60,6 +67,7 @@ class Cluster:
     def __init__(self):
         Cluster.serial += 1
         self.name = f"test-{os.getpid()}-{Cluster.serial}"
+        self.port = free_port()
         self.json = FOLDER / f"{self.name}.json"
         self.members = []
 
@@ -71,8 +79,14 @@ class Cluster:
             member.kill()
 
     def start(self, *arguments):
-        self.members.append(Member(*arguments, "--simulation", self.name, *NETWORK))
+        where = ["--port", self.port] if arguments[0] in ("controller", "run") else self.place
+        self.members.append(Member(*arguments, "--simulation", self.name, *where))
         return self.members[-1]
+
+    @property
+    def place(self):
+        """The options by which members, and `control` like them, reach the Controller over the network."""
+        return ["--controller", f"127.0.0.1:{self.port}"]
 
     def start_plain(self, *arguments):
         """A process that makes its own network."""

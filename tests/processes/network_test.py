@@ -1,10 +1,7 @@
-"""A run over hosts of their own (network namespaces) and a network that loses one packet in a hundred and takes five
-milliseconds: the same state hash as in one process, with multicast and with named peers; `roboss cluster` starts, shows and
-ends such a run; and members find each other by a discovery server, on one host and over several."""
-import contextlib
+"""A run over hosts of their own (network namespaces) and a network that loses some packets and takes five milliseconds: the
+same state hash as in one process. `roboss cluster` makes keys, and starts, shows and ends such a run."""
 import json
 import os
-import shutil
 import signal
 import subprocess
 import sys
@@ -28,32 +25,20 @@ class HostMember(Member):
         self.process = subprocess.Popen([*hosts.inside(host), ROBOSS, *map(str, arguments)], stdout=self.log, stderr=subprocess.STDOUT)
 
 
-NO_SERVER = None if shutil.which("fast-discovery-server") else "there is no fast-discovery-server (fastdds-tools)"
-
-
-@contextlib.contextmanager
-def discovery_server(address, port, before=()):
-    """A server at this address; `before`: what comes before its command."""
-    command = [*before, "fast-discovery-server", "-i", "0", "-l", address, "-p", str(port)]
-    server = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-    time.sleep(0.5)
-    try:
-        yield ["--discovery-server", f"{address}:{port}"]
-    finally:
-        server.kill()
-        server.wait()
-
-
 @unittest.skipIf(bad_cable.missing(), bad_cable.missing())
 class Network(unittest.TestCase):
-    def run_on(self, hosts, finding, members):
+    def place(self, hosts, host, role):
+        """Network options: the Controller is on host 0. Members find its keys by its name, since all are one computer's."""
+        return ["--simulation", "net", *(["--interface", hosts.address(host)] if role == "controller" else ["--controller", hosts.address(0)])]
+
+    def run_on(self, hosts, members):
         """The summary of a run whose Controller is on host 0."""
         summary = FOLDER / f"network-{time.monotonic_ns()}.json"
         started = []
         try:
             for host, *arguments in members:
                 more = ["--json", summary] if arguments[0] == "controller" else []
-                started.append(HostMember(hosts, host, *arguments, *more, "--simulation", "net", "--interface", hosts.address(host), *finding(host)))
+                started.append(HostMember(hosts, host, *arguments, *more, *self.place(hosts, host, arguments[0])))
             code = started[0].end(150)
             self.assertEqual(code, 0, started[0].said())
             for member in started[1:]:
@@ -63,36 +48,25 @@ class Network(unittest.TestCase):
             for member in started:
                 member.kill()
 
-    def city(self, finding, hosts):
-        return self.run_on(hosts, finding, [
+    def city(self, hosts):
+        return self.run_on(hosts, [
             (0, "controller", *CITY, "--simulators", 2, "--await-client", "driver"),
             (1, "simulator", "--patience", 60), (2, "simulator", "--patience", 60), (2, "client", DRIVER, "--name", "driver", "--patience", 60)])
 
-    def test_a_bad_network_changes_no_bit_with_and_without_multicast(self):
+    def test_a_bad_network_changes_no_bit(self):
         expected = embedded(*CITY, "--client", DRIVER)["state_hash"]
-        with bad_cable.Hosts(3, loss=0.01, delay_s=0.005, seed=3) as hosts:
-            with self.subTest("multicast"):
-                self.assertEqual(self.city(lambda _: [], hosts)["state_hash"], expected)
-            with self.subTest("peers"):
-                peers = [word for i in range(3) for word in ("--peer", hosts.address(i))]
-                self.assertEqual(self.city(lambda _: ["--no-multicast", *peers], hosts)["state_hash"], expected)
-            self.assertGreater(hosts.lost, 20, "the network lost nothing")
-
-    @unittest.skipIf(NO_SERVER, NO_SERVER)
-    def test_a_discovery_server_brings_hosts_together(self):
-        expected = embedded(*CITY, "--client", DRIVER)["state_hash"]
-        with bad_cable.Hosts(3) as hosts:  # the Controller is on the server's own host
-            with discovery_server(hosts.address(0), 11811, hosts.inside(0)) as finding:
-                self.assertEqual(self.city(lambda _: finding, hosts)["state_hash"], expected)
+        for loss in (0.01, 0.05):
+            with self.subTest(loss=loss), bad_cable.Hosts(3, loss=loss, delay_s=0.005, seed=3) as hosts:
+                self.assertEqual(self.city(hosts)["state_hash"], expected)
+                self.assertGreater(hosts.lost, 20, "the network lost nothing")
 
     def test_a_simulator_cut_off_by_its_host_is_done_without_and_comes_back(self):
         world = [WORLDS / "pile.sdf", "--until", 3.0]
         expected = embedded(*world)["state_hash"]
         with bad_cable.Hosts(3, loss=0.01, delay_s=0.002, seed=4) as hosts:
-            place = ["--simulation", "net", "--interface"]
             summary = FOLDER / "cut.json"
-            controller = HostMember(hosts, 0, "controller", *world, "--simulators", 2, "--speed", 0.25, "--json", summary, *place, hosts.address(0))
-            simulators = [HostMember(hosts, i, "simulator", "--patience", 30, *place, hosts.address(i)) for i in (1, 2)]
+            controller = HostMember(hosts, 0, "controller", *world, "--simulators", 2, "--speed", 0.25, "--json", summary, *self.place(hosts, 0, "controller"))
+            simulators = [HostMember(hosts, i, "simulator", "--patience", 30, *self.place(hosts, i, "simulator")) for i in (1, 2)]
             try:
                 controller.hears("joined", 2)
                 time.sleep(1.0)
@@ -100,7 +74,6 @@ class Network(unittest.TestCase):
                 controller.hears("given up", 1, 5)
                 simulators[1].hears("[reconnecting]")
                 bad_cable.ip("-n", hosts.name(2), "link", "set", "eth0", "up")
-                bad_cable.ip("-n", hosts.name(2), "route", "add", "224.0.0.0/4", "dev", "eth0")
                 controller.hears("joined", 3)
                 self.assertEqual(controller.end(100), 0, controller.said())
                 told = json.loads(summary.read_text())
@@ -127,14 +100,12 @@ reach = ["ip", "netns", "exec", "{{host}}", "sh", "-s"]
 host = "{hosts.name(0)}"
 world = "{WORLDS / 'pile.sdf'}"
 interface = "{hosts.address(0)}"
-options = ["--simulators", "3", "--speed", "0.5", "--headless"]
+options = ["--simulators", "3", "--speed", "0.5", "--headless"]address = "{hosts.address(0)}"
 [[simulators]]
 host = "{hosts.name(1)}"
-interface = "{hosts.address(1)}"
 count = 2
 [[simulators]]
 host = "{hosts.name(2)}"
-interface = "{hosts.address(2)}"
 threads = 2
 """)
             said = self.cluster(["up"], file)
@@ -154,21 +125,6 @@ threads = 2
             finally:
                 self.assertIn('"ended": 4', self.cluster(["down", "--json"], file))
             self.assertIn("[not-started]", self.cluster(["down"], file, 1))
-
-
-@unittest.skipIf(NO_SERVER, NO_SERVER)
-class DiscoveryServer(unittest.TestCase):
-    def test_members_of_one_host_find_each_other_by_it(self):
-        summary = FOLDER / "server.json"
-        with discovery_server("127.0.0.1", 20_000 + os.getpid() % 10_000) as finding:
-            place = ["--simulation", f"server-{os.getpid()}", *finding]
-            members = [Member("controller", *PILE, "--simulators", 2, "--json", summary, *place), Member("simulator", *place), Member("simulator", *place)]
-            try:
-                self.assertEqual(members[0].end(60), 0, members[0].said())
-                self.assertEqual(json.loads(summary.read_text())["state_hash"], embedded(*PILE)["state_hash"])
-            finally:
-                for member in members:
-                    member.kill()
 
 
 class ClusterFile(unittest.TestCase):

@@ -103,9 +103,9 @@ class Processes(unittest.TestCase):
             lost = cluster.start("client", FOLDER / "no_such.so")
             self.assertEqual(lost.end(), 1)
             self.assertIn("no_such.so", lost.said())
-            nowhere = cluster.start("simulator", "--interface", "nowhere0")
+            nowhere = cluster.start("simulator", "--keys", "nowhere")
             self.assertEqual(nowhere.end(), 1)
-            self.assertIn("nowhere0", nowhere.said())
+            self.assertIn("nowhere/authority.crt", nowhere.said())
 
     def test_simulator_processes_die_with_the_process_that_started_them(self):
         before = set(os.listdir("/dev/shm"))

@@ -95,7 +95,7 @@ function programArguments(options: RunOptions, folder: string, network: string[]
 let clusters = 0;
 function clusterNetwork(): string[] {
     const name = `page-${process.pid}-${++clusters}`;
-    return ["--simulation", name, "--domain", "92", "--no-multicast", "--peer", "127.0.0.1"];
+    return ["--simulation", name];
 }
 
 async function end(child: ChildProcess, signal: NodeJS.Signals = "SIGTERM"): Promise<void> {

@@ -58,6 +58,16 @@ class Reading {
         return value.value_or(otherwise);
     }
 
+    bool flag(const toml::table& table, const char* key) {
+        const toml::node* node = table.get(key);
+        if (node == nullptr) return false;
+        const auto value = node->value_exact<bool>();
+        if (!value)
+            fail(*node, fmt::format("'{}' is neither true nor false", key), fmt::format("write {} = true", key),
+                 "wrong-type");
+        return value.value_or(false);
+    }
+
     std::vector<std::string> texts(const toml::table& table, const char* key) {
         std::vector<std::string> values;
         const toml::node* node = table.get(key);
@@ -109,25 +119,12 @@ void append(std::vector<std::string>& words, const std::vector<std::string>& mor
     words.insert(words.end(), more.begin(), more.end());
 }
 
-/// The network options of a process: those in `own`, else those in `all`.
-std::vector<std::string> network_options(Reading& read, const toml::table& own, const toml::table& all) {
-    const auto where = [&](const char* key) -> const toml::table& { return own.contains(key) ? own : all; };
-    std::vector<std::string> words;
-    if (const std::string interface = read.text(where("interface"), "interface", ""); !interface.empty())
-        append(words, {"--interface", interface});
-    if (all.contains("domain"))
-        append(words, {"--domain", std::to_string(read.number(all, "domain", 0, 232))});
-    for (const std::string& peer : read.texts(where("peers"), "peers")) append(words, {"--peer", peer});
-    if (const std::string server = read.text(all, "discovery_server", ""); !server.empty())
-        append(words, {"--discovery-server", server});
-    if (const toml::node* node = all.get("multicast")) {
-        const auto value = node->value_exact<bool>();
-        if (!value)
-            read.fail(*node, "'multicast' is neither true nor false", "write multicast = false",
-                      "wrong-type");
-        if (value && !*value) words.push_back("--no-multicast");
-    }
-    return words;
+/// Where members find the Controller: at its address, else under the name by which its host is reached.
+std::string address_of_controller(Reading& read, const toml::table& controller) {
+    const std::string host = read.text(controller, "host", "local"),
+                      address = read.text(controller, "address", host == "local" ? "127.0.0.1" : host);
+    const std::int64_t port = controller.contains("port") ? read.number(controller, "port", 0, 65'535) : 0;
+    return port == 0 ? address : fmt::format("{}:{}", address, port);
 }
 
 void add_controller(Reading& read, const toml::table& root, ClusterFile& file) {
@@ -135,7 +132,7 @@ void add_controller(Reading& read, const toml::table& root, ClusterFile& file) {
     const toml::table* table = node == nullptr ? nullptr : node->as_table();
     if (table == nullptr)
         return read.fail(root, "[controller] is missing", "add it with its host and world", "no-controller");
-    read.only(*table, {"host", "world", "interface", "peers", "options"});
+    read.only(*table, {"host", "world", "interface", "address", "port", "options"});
     const std::string world = read.text(*table, "world", "");
     if (world.empty())
         read.fail(*table, "[controller] has no world", "write world = \"city.sdf\", the path on that host",
@@ -144,20 +141,25 @@ void add_controller(Reading& read, const toml::table& root, ClusterFile& file) {
                            "controller",
                            read.text(*table, "host", "local"),
                            {"controller", world, "--log", "-"},
-                           network_options(read, *table, root)};
+                           {}};
+    file.controller = address_of_controller(read, *table);
+    if (const std::string interface = read.text(*table, "interface", ""); !interface.empty())
+        append(process.network, {"--interface", interface});
+    if (const std::int64_t port = table->contains("port") ? read.number(*table, "port", 0, 65'535) : 0; port > 0)
+        append(process.network, {"--port", std::to_string(port)});
     append(process.arguments, read.texts(*table, "options"));
     file.processes.push_back(std::move(process));
 }
 
 void add_simulators(Reading& read, const toml::table& root, ClusterFile& file) {
     for (const toml::table* table : read.tables(root, "simulators")) {
-        read.only(*table, {"host", "count", "threads", "interface", "peers", "options"});
+        read.only(*table, {"host", "count", "threads", "options"});
         const std::string host = read.text(*table, "host", "local");
         const std::int64_t count = read.number(*table, "count", 1, kMostPerHost),
                            // A single one takes all cores of its host.
             threads = read.number(*table, "threads", count > 1 ? 1 : 0, kMostPerHost);
         for (std::int64_t i = 1; i <= count; ++i) {
-            ClusterProcess process{"simulator", "", host, {"simulator"}, network_options(read, *table, root)};
+            ClusterProcess process{"simulator", "", host, {"simulator"}, {"--controller", file.controller}};
             if (threads > 0) append(process.arguments, {"--threads", std::to_string(threads)});
             append(process.arguments, read.texts(*table, "options"));
             file.processes.push_back(std::move(process));
@@ -167,7 +169,7 @@ void add_simulators(Reading& read, const toml::table& root, ClusterFile& file) {
 
 void add_clients(Reading& read, const toml::table& root, ClusterFile& file) {
     for (const toml::table* table : read.tables(root, "clients")) {
-        read.only(*table, {"host", "program", "name", "interface", "peers", "options"});
+        read.only(*table, {"host", "program", "name", "options"});
         const std::string program = read.text(*table, "program", "");
         if (program.empty())
             read.fail(*table, "a client has no program",
@@ -176,7 +178,7 @@ void add_clients(Reading& read, const toml::table& root, ClusterFile& file) {
                                "",
                                read.text(*table, "host", "local"),
                                {"client", program},
-                               network_options(read, *table, root)};
+                               {"--controller", file.controller}};
         if (const std::string name = read.text(*table, "name", ""); !name.empty())
             append(process.arguments, {"--name", name});
         append(process.arguments, read.texts(*table, "options"));
@@ -205,8 +207,8 @@ Result<ClusterFile> load_cluster_file(const std::string& path) {
                      "see https://toml.io for the syntax", "bad-toml"};
     }
     const toml::table& root = parsed.table();
-    read.only(root, {"simulation", "program", "folder", "reach", "interface", "domain", "peers",
-                     "discovery_server", "multicast", "controller", "simulators", "clients"});
+    read.only(root, {"simulation", "program", "folder", "reach", "keys", "insecure", "controller", "simulators",
+                     "clients"});
     ClusterFile file;
     file.path = path;
     file.simulation = read.text(root, "simulation", "default");
@@ -215,6 +217,8 @@ Result<ClusterFile> load_cluster_file(const std::string& path) {
     file.reach = read.texts(root, "reach");
     if (file.reach.empty())
         file.reach = {"ssh", "-o", "BatchMode=yes", "-o", "ConnectTimeout=10", "{host}", "sh", "-s"};
+    file.insecure = read.flag(root, "insecure");
+    file.keys = read.text(root, "keys", path + ".keys");
     add_controller(read, root, file);
     add_simulators(read, root, file);
     add_clients(read, root, file);

@@ -10,11 +10,13 @@
 #include <utility>
 
 #include "app/cluster/remote_shell.h"
+#include "net/key_ring.h"
 
 namespace roboss {
 namespace {
 
 constexpr std::size_t kAtOnce = 16;  // hosts contacted at the same time
+constexpr int kKey_days = 365;
 
 using HostScripts = std::map<std::string, std::string>;
 using HostAnswers = std::map<std::string, Result<std::string>>;
@@ -49,10 +51,29 @@ std::string path_of_log(const ClusterFile& file, const ClusterProcess& process) 
     return "\"$folder\"/" + quoted(file.simulation + "-" + process.name + ".log");
 }
 
+/// Where a process finds its key on its host.
+std::string folder_of_key(const ClusterFile& file, const ClusterProcess& process) {
+    return "\"${HOME:-/tmp}\"/.roboss/keys/" + quoted(file.simulation + "/" + process.name);
+}
+
+/// Writes a key there, readable by its owner alone.
+std::string key_script(const ClusterFile& file, const ClusterProcess& process, const Credentials& keys) {
+    std::string revoked;
+    for (const std::string& serial : keys.revoked) revoked += serial + "\n";
+    std::string script = fmt::format("(umask 077; mkdir -p {0} && cd {0} && rm -f revoked || exit 3\n",
+                                     folder_of_key(file, process));
+    for (const auto& [name, text] : {std::pair{"authority.crt", &keys.authority},
+                                     std::pair{"member.crt", &keys.own.certificate},
+                                     std::pair{"member.key", &keys.own.key}, std::pair{"revoked", &revoked}})
+        script += fmt::format("cat >{} <<'END-OF-KEY'\n{}END-OF-KEY\n", name, *text);
+    return script + ") || exit 3\n";
+}
+
 /// Starts processes on one host, given by their index in the file, and prints for each a line "+ INDEX PID
 /// LOG", or
 /// "- INDEX" and the end of its log.
-std::string starting_script(const ClusterFile& file, const std::vector<std::size_t>& indices) {
+std::string starting_script(const ClusterFile& file, const std::vector<std::size_t>& indices,
+                            const std::vector<Credentials>& keys) {
     const std::string program = quoted(file.program);
     const char* absent =
         file.program.find('/') == std::string::npos
@@ -65,6 +86,7 @@ command -v {0} >/dev/null || {{ echo {0} {1}; exit 3; }}
                                                        program, absent);
     for (const std::size_t i : indices) {
         const ClusterProcess& process = file.processes[i];
+        if (!file.insecure) script += key_script(file, process, keys[i]);
         script += fmt::format("setsid nohup {} >{} 2>&1 </dev/null &\npid{}=$!\n",
                               command_line(file, process, process.arguments), path_of_log(file, process), i);
     }
@@ -114,14 +136,32 @@ std::string command_line(const ClusterFile& file, const ClusterProcess& process,
     for (const std::string& word : arguments) line += " " + quoted(word);
     line += " --simulation " + quoted(file.simulation);
     for (const std::string& word : process.network) line += " " + quoted(word);
-    return line;
+    return line + (file.insecure ? " --insecure" : " --keys " + folder_of_key(file, process));
 }
 
-StartOutcome start_processes(const ClusterFile& file) {
+Result<std::vector<Credentials>> keys_of(const ClusterFile& file) {
+    std::vector<Credentials> all;
+    if (file.insecure) return all;
+    Result<KeyRing> ring = KeyRing::open(file.keys);
+    if (!ring) return ring.error();
+    for (const ClusterProcess& process : file.processes) {
+        const Result<Seat> seat = seat_of(process.role);
+        if (!seat) return seat.error();
+        if (!ring.value().has(process.name))
+            if (Result<> added = ring.value().add(process.name, seat.value(), kKey_days); !added)
+                return added.error();
+        Result<Credentials> keys = ring.value().credentials(process.name);
+        if (!keys) return keys.error();
+        all.push_back(std::move(keys).value());
+    }
+    return all;
+}
+
+StartOutcome start_processes(const ClusterFile& file, const std::vector<Credentials>& keys) {
     std::map<std::string, std::vector<std::size_t>> indices;
     for (std::size_t i = 0; i < file.processes.size(); ++i) indices[file.processes[i].host].push_back(i);
     HostScripts scripts;
-    for (const auto& [host, its] : indices) scripts[host] = starting_script(file, its);
+    for (const auto& [host, its] : indices) scripts[host] = starting_script(file, its, keys);
     StartOutcome outcome;
     for (const auto& [host, output] : run_on_hosts(file, scripts)) {
         if (output) {

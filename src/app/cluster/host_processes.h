@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "app/cluster/cluster_file.h"
+#include "net/tls.h"
 
 namespace roboss {
 
@@ -17,12 +18,16 @@ struct Started {
     long pid = 0;
 };
 
+/// A key for each process, from the folder of the file's keys, where those that are missing are made. None if the
+/// file says `insecure`.
+Result<std::vector<Credentials>> keys_of(const ClusterFile& file);
+
 /// The processes that run, and an error for each of the others.
 struct StartOutcome {
     std::vector<Started> started;
     std::vector<Error> errors;
 };
-StartOutcome start_processes(const ClusterFile& file);
+StartOutcome start_processes(const ClusterFile& file, const std::vector<Credentials>& keys);
 
 /// Which processes run, and the error of each host that does not answer.
 struct Presence {

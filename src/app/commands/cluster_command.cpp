@@ -34,10 +34,12 @@ const char* const kClusterFooter =
   simulation = "city"              # name of the run
   program = "/opt/roboss/bin/roboss"    # on the hosts; default: roboss, found through PATH
   folder = "/home/me/worlds"       # working directory on the hosts
-  interface = "eth0"               # for all; may be repeated for one process. Also: domain, peers = [...],
-                                   # discovery_server = "HOST:PORT", multicast = false
+  keys = "keys"                    # here: an authority and a key for each process, made if missing; default:
+                                   # HOSTS.toml.keys. insecure = true: no keys and no encryption
   [controller]
   host = "node1"                   # name for ssh, or "local"
+  interface = "eth0"               # at which it listens, there
+  address = "192.0.2.1"            # where others find it; default: the host's name; port = 7117
   world = "city.sdf"
   options = ["--simulators", "8", "--journal", "city.journal"]    # options of `roboss controller`
   [[simulators]]
@@ -55,7 +57,7 @@ Started processes are listed in HOSTS.toml.running beside the file; their logs a
 Examples:
   roboss cluster up hosts.toml
   roboss cluster status hosts.toml
-  roboss cluster status --simulation city --interface eth0      # any run, however it was started
+  roboss cluster status --simulation city      # any run, however it was started
   roboss cluster down hosts.toml
 
 Exit codes: 0 done, 1 the file is wrong or nothing was started, 2 wrong usage, 3 a host cannot be reached or a process
@@ -119,7 +121,9 @@ int up(const std::string& path, bool json) {
     Result<ClusterFile> file = load_cluster_file(path);
     if (!file) return print(file.error()), kBadInput;
     if (is_up(file.value())) return kRunFailed;
-    const StartOutcome outcome = start_processes(file.value());
+    const Result<std::vector<Credentials>> keys = keys_of(file.value());
+    if (!keys) return print(keys.error()), kBadInput;
+    const StartOutcome outcome = start_processes(file.value(), keys.value());
     if (json) {
         const Json told{{"simulation", file.value().simulation}, {"started", json_of(outcome.started)}};
         fmt::print("{}\n", told.dump(2));
@@ -247,8 +251,8 @@ Result<std::string> ask_status(const StatusOptions& o, const ClusterFile* file) 
     const ClusterProcess& controller = file->processes.front();
     return run_on_host(
         *file, controller.host,
-        "exec " + command_line(*file, controller, {"control", "status", "--quiet", "--patience", "5"}) +
-            "\n");
+        "exec " + quoted(file->program) + " control status --quiet --patience 5 --simulation " +
+            quoted(file->simulation) + "\n");
 }
 
 /// The status of the started processes, as their hosts report it; an Error if the Controller does not run.

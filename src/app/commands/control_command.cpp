@@ -31,8 +31,8 @@ constexpr double kPatience_s = 10;
 
 const char* const kControlFooter =
     R"(It reaches every run of this computer, by its name (`roboss runs` lists them) or, if there is only one, without. With a
-network option (--interface, --domain, --peer ...) it reaches a `roboss controller` on another computer, as the other
-members of the run do. A request takes effect at the end of the current window. pause, step, speed, window and
+network option (--controller, --keys) it reaches a `roboss controller` on another computer, as the other members of the
+run do. A request takes effect at the end of the current window. pause, step, speed, window and
 simulators do not change the result. rewind, reset, add, remove, copy, restore and accuracy change the world at a tick;
 with a journal, each starts a new branch there.
 

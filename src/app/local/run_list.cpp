@@ -2,7 +2,6 @@
 #include "app/local/run_list.h"
 
 #include <fmt/format.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -57,23 +56,6 @@ std::string free_name(const std::string& wanted, const std::vector<ListedRun>& r
 
 }  // namespace
 
-Result<fs::path> run_folder() {
-    std::error_code error;
-    const char* runtime = std::getenv("XDG_RUNTIME_DIR");
-    const bool has_runtime = runtime != nullptr && fs::is_directory(runtime, error);
-    const fs::path folder = has_runtime ? fs::path(runtime) / "roboss"
-                                        : fs::temp_directory_path(error) / fmt::format("roboss-{}", getuid());
-    ::mkdir(folder.c_str(), 0700);
-    struct stat found {};
-    if (::lstat(folder.c_str(), &found) != 0 || !S_ISDIR(found.st_mode) || found.st_uid != getuid() ||
-        (found.st_mode & 0077) != 0)
-        return Error{folder.string() +
-                         " cannot be used to list the runs of this computer: it is no folder "
-                         "that only you can open",
-                     "remove it, or set XDG_RUNTIME_DIR to a folder of yours", "no-run-folder"};
-    return folder;
-}
-
 Result<std::vector<ListedRun>> listed_runs() {
     const Result<fs::path> folder = run_folder();
     if (!folder) return folder.error();
@@ -101,7 +83,7 @@ Result<ListedRun> find_run(const std::string& name) {
     if (!runs) return runs.error();
     if (runs.value().empty())
         return Error{"there is no run on this computer",
-                     "start one with `roboss run WORLD`; to reach one on another computer, add --interface",
+                     "start one with `roboss run WORLD`; to reach one on another computer, add --controller HOST",
                      "no-run"};
     std::vector<ListedRun> found;
     for (const ListedRun& run : runs.value())
@@ -109,7 +91,7 @@ Result<ListedRun> find_run(const std::string& name) {
     if (found.size() == 1) return found.front();
     if (found.empty())
         return Error{fmt::format("there is no run '{}' on this computer", name),
-                     fmt::format("there is: {}; to reach one on another computer, add --interface",
+                     fmt::format("there is: {}; to reach one on another computer, add --controller HOST",
                                  names_of(runs.value())),
                      "no-run"};
     return Error{name.empty() ? "there are several runs on this computer"

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/result.h"
+#include "net/meeting_place.h"
 
 namespace roboss {
 
@@ -22,10 +23,6 @@ struct ListedRun {
     pid_t pid = 0;
     std::filesystem::path socket;
 };
-
-/// Where runs are listed: $XDG_RUNTIME_DIR/roboss, else roboss-UID in the folder for temporary files. Created
-/// if it is missing. An Error if others could write there.
-Result<std::filesystem::path> run_folder();
 
 /// The living runs, by the time of their start.
 Result<std::vector<ListedRun>> listed_runs();

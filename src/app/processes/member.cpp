@@ -2,12 +2,14 @@
 #include "app/processes/member.h"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <random>
 
 #include "app/commands/numbers.h"
 #include "app/processes/interrupt.h"
+#include "app/processes/local_process.h"
 #include "app/processes/network_options.h"
 
 namespace roboss {
@@ -16,14 +18,11 @@ namespace {
 constexpr std::int64_t kTurn_ms = 10;
 constexpr std::int64_t kResend_ms = 250;
 constexpr std::int64_t kReportWaiting_ms = 3'000;
-constexpr std::int64_t kSilence_ms = 1'500, kSilenceLongest_ms = 60'000;
-constexpr std::int64_t kSilentLeases =
-    6;  // where a lease is long: processes are many and get their turns late
 
 }  // namespace
 
 void add_member_options(CLI::App& command, MemberOptions& o) {
-    add_network_options(command, o.network);
+    add_join_options(command, o.network);
     command
         .add_option("--patience", o.patience_s,
                     "give up after this long without a Controller, s (default: wait without limit)")
@@ -33,16 +32,15 @@ void add_member_options(CLI::App& command, MemberOptions& o) {
 
 void note_given(const CLI::App& command, MemberOptions& o) {
     o.named = command.get_option("--simulation")->count() > 0;
-    for (const char* name : kNetworkOptions)
+    for (const char* name : kJoinOptions)
         o.networked = o.networked || command.get_option(name)->count() > 0;
 }
 
 bool Member::open() {
-    Result<std::unique_ptr<DdsBus>> bus = DdsBus::create(o_.network);
+    Result<std::unique_ptr<StreamBus>> bus = StreamBus::join(o_.network, what_, process_name(getpid()));
     if (!bus) return report_error(bus.error()), false;
     bus_ = std::move(bus).value();
-    seen_ms_ = connected_ms_ = bus_->now_ms();
-    silence_ms_max_ = first_silence_ms();
+    seen_ms_ = bus_->now_ms();
     watch_for_interrupts();
     return true;
 }
@@ -66,8 +64,8 @@ std::shared_ptr<const Model> Member::fetch_model(const Address& self) {
 bool Member::wait() {
     bus_->wait(kTurn_ms);
     for (const std::string& line : bus_->take_notices()) report(line);
+    if (const std::optional<Error> refusal = bus_->refusal()) return report_error(*refusal), false;
     const std::int64_t now = bus_->now_ms();
-    reconnect_if_silent(now);
     if (bus_->present(kControllerAddress)) {
         seen_ms_ = now;
         waiting_reported_ = false;
@@ -78,28 +76,11 @@ bool Member::wait() {
     if (o_.patience_s <= 0 || static_cast<double>(now - seen_ms_) < 1e3 * o_.patience_s) return true;
     report_error(
         {fmt::format("no Controller of {} found for {} s", describe(o_.network), o_.patience_s),
-         "start `roboss controller` with the same --simulation, --domain and network, or see --peer and "
-         "--discovery-server if the network has no multicast",
+         o_.network.controller.empty()
+             ? "start `roboss controller` with the same --simulation on this computer, or give --controller HOST"
+             : "start `roboss controller` there with an --interface that others reach, or correct --controller",
          "no-controller"});
     return false;
-}
-
-std::int64_t Member::first_silence_ms() const {
-    return std::max(kSilence_ms, kSilentLeases * o_.network.liveliness_ms);
-}
-
-void Member::reconnect_if_silent(std::int64_t now_ms) {
-    const std::int64_t heard_ms = bus_->heard_ms(kControllerAddress).value_or(0);
-    if (heard_ms > connected_ms_) silence_ms_max_ = first_silence_ms();
-    if (now_ms - std::max(heard_ms, connected_ms_) < silence_ms_max_) return;
-    connected_ms_ = now_ms;
-    if (const Result<> again = bus_->reconnect(); !again) {
-        if (std::exchange(trouble_reported_, again.error().message) != again.error().message)
-            report(again.error().message + "; retrying [reconnecting]");
-        return;
-    }
-    trouble_reported_.clear();
-    silence_ms_max_ = std::min(2 * silence_ms_max_, kSilenceLongest_ms);
 }
 
 void Member::report(const std::string& line) const {

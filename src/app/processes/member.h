@@ -7,16 +7,16 @@
 #include <optional>
 
 #include "bus/model_pull.h"
-#include "dds/dds_bus.h"
+#include "net/stream_bus.h"
 
 namespace roboss {
 
 struct MemberOptions {
-    DdsOptions network;
+    NetOptions network;
     double patience_s = 0;  // without a Controller; 0: any time
     bool quiet = false;
     bool named = false;      // --simulation was given
-    bool networked = false;  // another network option was given
+    bool networked = false;  // a network option that leads to another computer was given
 };
 void add_member_options(CLI::App& command, MemberOptions& options);
 /// Sets `named` and `networked`, once the command line has been read.
@@ -29,28 +29,23 @@ class Member {
 
     /// False: an option is wrong; it has been reported.
     bool open();
-    DdsBus& bus() { return *bus_; }
+    StreamBus& bus() { return *bus_; }
     /// A new address, never used before.
     Address new_address(Role role) const;
     /// Waits for the Model; null if it cannot be fetched (it has been reported) or on Ctrl-C.
     std::shared_ptr<const Model> fetch_model(const Address& self);
-    /// Waits for messages between two turns of the role. False: no Controller for too long.
+    /// Waits for messages between two turns of the role. False: no Controller for too long, or it refuses this
+    /// process; it has been reported.
     bool wait();
     void report(const std::string& line) const;
     void report_error(const Error& error) const;
 
   private:
-    /// Reconnects after a long silence of the Controller, with growing intervals.
-    void reconnect_if_silent(std::int64_t now_ms);
-    std::int64_t first_silence_ms() const;
-
     const char* what_;
     const MemberOptions& o_;
-    std::unique_ptr<DdsBus> bus_;
+    std::unique_ptr<StreamBus> bus_;
     std::int64_t seen_ms_ = 0;  // when a Controller was there last
-    std::int64_t connected_ms_ = 0, silence_ms_max_ = 0;
     bool waiting_reported_ = false;
-    std::string trouble_reported_;
 };
 
 }  // namespace roboss

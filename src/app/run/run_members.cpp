@@ -8,9 +8,7 @@
 #include <random>
 #include <set>
 
-#include "app/processes/network_options.h"
 #include "app/processes/threads.h"
-#include "dds/network.h"
 
 namespace roboss {
 namespace {
@@ -18,7 +16,6 @@ namespace {
 constexpr std::int64_t kSilence_ms = 1'000;     // silence after which a Simulator counts as lost
 constexpr std::int64_t kClientGone_ms = 5'000;  // a Client whose process is gone and does not come back
 constexpr double kCheckpointEvery_s = 0.2;      // of stepping time: bounds the work lost with a Simulator
-constexpr std::int64_t kLookAround_ms = 500;    // for another Controller of the same name
 constexpr int kStartedAgainMax = 3;
 constexpr std::uint32_t kOnOneComputer_ms = 5'000;  // no network can fail: a slow process is only busy
 constexpr std::int64_t kJoin_ms = 7'000;            // without another process joining
@@ -33,12 +30,7 @@ Result<std::unique_ptr<RunMembers>> RunMembers::gather(const RunOptions& options
     if (options.processes > 0) {
         std::random_device device;
         members->network_.simulation = fmt::format("run-{}-{:08x}", getpid(), device());
-        members->network_.interface = "127.0.0.1";
-        members->network_.multicast = false;
         members->network_.liveliness_ms = kOnOneComputer_ms;
-        const Result<std::uint16_t> port = free_udp_port(members->network_.interface);
-        if (!port) return port.error();
-        members->network_.port = port.value();
         members->patience_ms_ = kJoin_ms + std::max<std::int64_t>(prepared_ms - kLinked_ms, 0) *
                                                std::max(1, options.processes / cores());
     }
@@ -50,50 +42,26 @@ Result<std::unique_ptr<RunMembers>> RunMembers::gather(const RunOptions& options
 }
 
 Result<> RunMembers::open_network() {
-    Result<std::unique_ptr<DdsBus>> bus = DdsBus::create(network_);
+    Result<std::unique_ptr<StreamBus>> bus = StreamBus::listen(network_);
     if (!bus) return bus.error();
     bus_ = std::move(bus).value();
     open_bus_ = bus_.get();
     std::vector<Envelope> inbox;
     bus_->drain(kControllerAddress, inbox);
     if (!o_.is_controller) return Ok{};
-    const std::int64_t end = bus_->now_ms() + kLookAround_ms;
-    while (bus_->now_ms() < end) {
-        bus_->wait(end - bus_->now_ms());
-        if (bus_->taken_elsewhere(kControllerAddress))
-            return Error{"a Controller of " + describe(network_) + " is already running",
-                         "end it, or give this run another name with --simulation", "controller-exists"};
-    }
-    notices_.push_back(fmt::format("Controller of {}, waiting for {} Simulators [waiting]",
-                                   describe(network_), o_.simulators));
+    notices_.push_back(fmt::format("Controller of {} at {}, waiting for {} Simulators [waiting]",
+                                   describe(network_), bus_->where(), o_.simulators));
+    if (network_.insecure)
+        notices_.push_back("everybody who reaches " + bus_->where() + " can read and change this run [insecure]");
     return Ok{};
 }
 
-/// The process discovers this process only, at its port: full discovery would grow with the square of the
-/// number of members (decision 0021).
+/// The process finds this one, and a key, by the name of the run.
 Result<> RunMembers::start_process() {
-    const int threads = threads_of_each(o_.threads, o_.processes);
-    return processes_.start({"roboss",
-                             "simulator",
-                             "--simulation",
-                             network_.simulation,
-                             "--domain",
-                             std::to_string(network_.domain),
-                             "--interface",
-                             network_.interface,
-                             "--no-multicast",
-                             "--peer",
-                             fmt::format("{}:{}", network_.interface, network_.port),
-                             "--through-controller",
-                             "--liveliness-ms",
-                             std::to_string(network_.liveliness_ms),
-                             "--threads",
-                             std::to_string(threads),
-                             "--lanes",
-                             std::to_string(o_.lanes),
-                             "--patience",
-                             "10",
-                             "--quiet"});
+    return processes_.start({"roboss", "simulator", "--simulation", network_.simulation, "--liveliness-ms",
+                             std::to_string(network_.liveliness_ms), "--threads",
+                             std::to_string(threads_of_each(o_.threads, o_.processes)), "--lanes",
+                             std::to_string(o_.lanes), "--patience", "10", "--quiet"});
 }
 
 void RunMembers::configure(SimulationOptions& options) const {

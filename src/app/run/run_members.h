@@ -8,7 +8,7 @@
 
 #include "app/processes/simulator_processes.h"
 #include "app/run/run_options.h"
-#include "dds/dds_bus.h"
+#include "net/stream_bus.h"
 #include "simulation/simulation.h"
 
 namespace roboss {
@@ -46,9 +46,9 @@ class RunMembers {
     Result<> watch_start(const Simulation& simulation);
 
     const RunOptions& o_;
-    DdsOptions network_;
-    std::unique_ptr<DdsBus> bus_;
-    DdsBus* open_bus_ = nullptr;  // the same; the Simulation owns it then
+    NetOptions network_;
+    std::unique_ptr<StreamBus> bus_;
+    StreamBus* open_bus_ = nullptr;  // the same; the Simulation owns it then
     SimulatorProcesses processes_;
     std::int64_t patience_ms_ = 0;  // with processes that do not join
     std::vector<std::string> notices_;

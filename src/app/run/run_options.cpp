@@ -330,7 +330,7 @@ void add_controller_options(CLI::App& command, RunOptions& o) {
         "--await-client", o.clients_awaited,
         "the run also waits for this Client before it starts (`roboss client --name`; may be repeated)");
     name_new_options(command, "Members of this run");
-    add_network_options(command, o.network);
+    add_listen_options(command, o.network);
     limit_help_to(command, {"simulators", "local", "await-client", "interface", "simulation", "peer",
                             "duration", "speed", "client", "orders", "view", "headless", "journal"});
 }

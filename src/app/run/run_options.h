@@ -11,7 +11,7 @@
 #include "app/run/sense.h"
 #include "app/viewer/snapshot.h"
 #include "app/viewer/viewer.h"
-#include "dds/dds_options.h"
+#include "net/net_options.h"
 #include "physics/step.h"
 #include "world/bare_model.h"
 #include "world/world.h"
@@ -42,7 +42,7 @@ struct RunOptions {
     int local = 0;               // Simulators in the process of a Controller
     bool is_controller = false;  // `roboss controller`: Simulators join over the network
     std::vector<std::string> clients_awaited;
-    DdsOptions network;
+    NetOptions network;
     bool merge_islands = false;
     std::vector<std::string> clients;  // control programs, shared libraries
     std::string orders;                // JSON lines

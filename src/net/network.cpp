@@ -1,15 +1,14 @@
 // getifaddrs and getaddrinfo.
-#include "dds/network.h"
+#include "net/network.h"
 
 #include <arpa/inet.h>
 #include <ifaddrs.h>
 #include <net/if.h>
 #include <netdb.h>
+#include <sys/resource.h>
 #include <sys/socket.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <fstream>
 #include <memory>
 #include <vector>
 
@@ -25,6 +24,7 @@ std::string text_of(const sockaddr* address) {
 }  // namespace
 
 Result<std::string> interface_address(const std::string& name) {
+    if (name == "0.0.0.0") return name;
     ifaddrs* list = nullptr;
     if (getifaddrs(&list) != 0) return Error{"the network interfaces of this computer cannot be listed", ""};
     const std::unique_ptr<ifaddrs, decltype(&freeifaddrs)> owner(list, &freeifaddrs);
@@ -37,7 +37,7 @@ Result<std::string> interface_address(const std::string& name) {
         known += (known.empty() ? "" : ", ") + std::string(i->ifa_name) + " (" + address + ")";
     }
     return Error{"this computer has no network interface '" + name + "' with an IPv4 address",
-                 "give one of: " + known};
+                 "give one of: " + known, "no-interface"};
 }
 
 Result<HostPort> host_port(const std::string& text) {
@@ -52,38 +52,24 @@ Result<HostPort> host_port(const std::string& text) {
         const int port = number ? std::stoi(digits) : 0;
         if (port < 1 || port > 65535)
             return Error{"'" + text + "' has no port from 1 to 65535 behind its colon",
-                         "write HOST or HOST:PORT"};
+                         "write HOST or HOST:PORT", "bad-port"};
         result.port = static_cast<std::uint16_t>(port);
     }
     addrinfo hints{};
     hints.ai_family = AF_INET;
     addrinfo* found = nullptr;
     if (host.empty() || getaddrinfo(host.c_str(), nullptr, &hints, &found) != 0 || found == nullptr)
-        return Error{"there is no computer called '" + host + "'", "give its name or IPv4 address"};
+        return Error{"there is no computer called '" + host + "'", "give its name or IPv4 address", "no-host"};
     const std::unique_ptr<addrinfo, decltype(&freeaddrinfo)> owner(found, &freeaddrinfo);
     result.address = text_of(found->ai_addr);
     return result;
 }
 
-Result<std::uint16_t> free_udp_port(const std::string& address) {
-    sockaddr_in at{};
-    at.sin_family = AF_INET;
-    socklen_t bytes = sizeof at;
-    const int fd = socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0);
-    const bool found = fd >= 0 && inet_pton(AF_INET, address.c_str(), &at.sin_addr) == 1 &&
-                       bind(fd, reinterpret_cast<sockaddr*>(&at), bytes) == 0 &&
-                       getsockname(fd, reinterpret_cast<sockaddr*>(&at), &bytes) == 0;
-    if (fd >= 0) close(fd);
-    if (!found)
-        return Error{"there is no free UDP port at " + address, "see the limits (ulimit -n) and `ss -u -a`"};
-    return ntohs(at.sin_port);
-}
-
-std::uint32_t socket_buffer_max() {
-    std::ifstream file("/proc/sys/net/core/rmem_max");
-    std::uint64_t bytes = 0;
-    file >> bytes;
-    return static_cast<std::uint32_t>(std::min<std::uint64_t>(bytes, 0x7FFFFFFF));
+void raise_connection_limit() {
+    rlimit limit{};
+    if (getrlimit(RLIMIT_NOFILE, &limit) != 0 || limit.rlim_cur == limit.rlim_max) return;
+    limit.rlim_cur = limit.rlim_max;
+    setrlimit(RLIMIT_NOFILE, &limit);
 }
 
 }  // namespace roboss

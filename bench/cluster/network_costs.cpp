@@ -1,5 +1,5 @@
 // Ping and pong.
-#include "cluster/dds_costs.h"
+#include "cluster/network_costs.h"
 
 #include <unistd.h>
 
@@ -10,7 +10,7 @@
 #include <thread>
 
 #include "core/thread_cpu.h"
-#include "dds/dds_bus.h"
+#include "net/stream_bus.h"
 #include "median.h"
 
 namespace roboss::bench {
@@ -19,12 +19,7 @@ namespace {
 constexpr Address kEcho{Role::kSimulator, 1};
 constexpr std::int64_t kPatience_ms = 10'000;
 
-std::unique_ptr<DdsBus> open(const std::string& name) {
-    DdsOptions options;
-    options.simulation = name;
-    options.multicast = false;
-    options.peers = {"127.0.0.1"};
-    Result<std::unique_ptr<DdsBus>> bus = DdsBus::create(options);
+std::unique_ptr<StreamBus> checked(Result<std::unique_ptr<StreamBus>> bus) {
     if (!bus) throw std::runtime_error(bus.error().text());
     return std::move(bus).value();
 }
@@ -50,9 +45,11 @@ double wall_us() {
 
 }  // namespace
 
-NetworkCosts measure_dds(int rounds) {
-    const std::string name = "costs-" + std::to_string(getpid());
-    const auto bus = open(name), other = open(name);
+NetworkCosts measure_network(int rounds) {
+    NetOptions options;
+    options.simulation = "costs-" + std::to_string(getpid());
+    const auto bus = checked(StreamBus::listen(options));
+    const auto other = checked(StreamBus::join(options, "simulator", "echo"));
     std::atomic<bool> done = false;
     std::thread echo([&] {
         std::vector<Envelope> inbox;
@@ -87,7 +84,7 @@ NetworkCosts measure_dds(int rounds) {
     }
     done = true;
     echo.join();
-    if (send_us.empty()) throw std::runtime_error("Fast DDS carries no message on the loopback interface");
+    if (send_us.empty()) throw std::runtime_error("no message arrives over the loopback interface");
     // Encoding an assignment is in send_us and is measured again as it happens; that is on the safe side.
     return {median(send_us), std::max(0.0, median(way_us))};
 }

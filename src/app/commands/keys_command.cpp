@@ -1,0 +1,121 @@
+// A folder with an authority and a folder for each key.
+#include "app/commands/keys_command.h"
+
+#include <fmt/format.h>
+
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "app/commands/exit_codes.h"
+#include "app/commands/numbers.h"
+#include "app/run/run.h"
+#include "net/key_ring.h"
+
+namespace roboss {
+namespace {
+
+const char* const kKeysFooter =
+    R"(Runs on one computer need no such keys: their members find keys of the run by its name. For members on other
+computers, make a key for each, and copy its folder there (and nothing else; authority.key stays here):
+
+  roboss keys add keys controller --role controller
+  roboss keys add keys sim-1 --role simulator
+  roboss keys list keys
+  scp -rp keys/sim-1 node2:
+  roboss controller city.sdf --interface eth0 --keys keys/controller       here
+  roboss simulator --controller node1 --keys sim-1                         on node2
+  roboss keys revoke keys sim-1
+
+`roboss cluster up` makes and copies keys by itself. A Controller accepts the keys of its own authority only, and each
+only for its role. It reads the list of revoked keys, keys/controller/revoked, again when that changes.
+
+Exit codes: 0 done, 1 a folder, name or role is wrong.)";
+
+struct KeysOptions {
+    std::string folder, name, role = "member";
+    int days = 365;
+    bool json = false;
+};
+
+int fail(const Error& error) {
+    print(error);
+    return kBadInput;
+}
+
+int add(const KeysOptions& o) {
+    const Result<Seat> seat = seat_of(o.role);
+    if (!seat) return fail(seat.error());
+    if (Result<> named = check_holder_name(o.name); !named) return fail(named.error());
+    Result<KeyRing> ring = KeyRing::open(o.folder);
+    if (!ring) return fail(ring.error());
+    if (Result<> added = ring.value().add(o.name, seat.value(), o.days); !added) return fail(added.error());
+    fmt::print("{}/{}: the key of a {}, for its --keys\n", o.folder, o.name, o.role);
+    return kSuccess;
+}
+
+/// A ring that is there: looking at one makes none.
+Result<KeyRing> ring_of(const KeysOptions& o) {
+    std::error_code error;
+    if (!std::filesystem::exists(o.folder, error))
+        return Error{"there is no folder " + o.folder, "`roboss keys add` makes it", "no-keys"};
+    return KeyRing::open(o.folder);
+}
+
+int list(const KeysOptions& o) {
+    Result<KeyRing> ring = ring_of(o);
+    if (!ring) return fail(ring.error());
+    const Result<std::vector<Holder>> holders = ring.value().holders();
+    if (!holders) return fail(holders.error());
+    if (o.json) {
+        nlohmann::ordered_json all = nlohmann::ordered_json::array();
+        for (const Holder& holder : holders.value())
+            all.push_back({{"name", holder.name},
+                           {"role", seat_name(holder.seat)},
+                           {"expires", holder.expires},
+                           {"serial", holder.serial}});
+        fmt::print("{}\n", all.dump(2));
+        return kSuccess;
+    }
+    fmt::print("{:24}  {:10}  {}\n", "NAME", "ROLE", "EXPIRES");
+    for (const Holder& holder : holders.value())
+        fmt::print("{:24}  {:10}  {}\n", holder.name, seat_name(holder.seat), holder.expires);
+    return kSuccess;
+}
+
+int revoke(const KeysOptions& o) {
+    Result<KeyRing> ring = ring_of(o);
+    if (!ring) return fail(ring.error());
+    if (Result<> revoked = ring.value().revoke(o.name); !revoked) return fail(revoked.error());
+    fmt::print("the key of {} is revoked; Controllers with their keys elsewhere need the new file `revoked`\n",
+               o.name);
+    return kSuccess;
+}
+
+}  // namespace
+
+void add_keys_command(CLI::App& app, int& exit_code) {
+    CLI::App* command = app.add_subcommand("keys", "make, list and revoke the keys of members on other computers");
+    command->footer(kKeysFooter);
+    command->require_subcommand(1);
+    auto o = std::make_shared<KeysOptions>();
+    const auto folder = [&](CLI::App* sub) {
+        sub->add_option("folder", o->folder, "folder of the authority and its keys")->required();
+    };
+    CLI::App* sub = command->add_subcommand("add", "make a key, and the authority if the folder is new");
+    folder(sub);
+    sub->add_option("name", o->name, "of its holder")->required();
+    sub->add_option("--role", o->role, "controller, simulator, client, or member (Simulator or Client)")
+        ->capture_default_str();
+    sub->add_option("--days", o->days, "until it expires")->check(whole_number(1, 36'500))->capture_default_str();
+    sub->callback([o, &exit_code] { exit_code = add(*o); });
+    sub = command->add_subcommand("list", "print the names, roles and ends of all keys");
+    folder(sub);
+    sub->add_flag("--json", o->json, "print a JSON array");
+    sub->callback([o, &exit_code] { exit_code = list(*o); });
+    sub = command->add_subcommand("revoke", "end a key before it expires");
+    folder(sub);
+    sub->add_option("name", o->name, "of its holder")->required();
+    sub->callback([o, &exit_code] { exit_code = revoke(*o); });
+}
+
+}  // namespace roboss

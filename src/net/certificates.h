@@ -1,0 +1,48 @@
+// Keys and certificates of a run (X.509, elliptic curve P-256, as PEM text): an authority, and what it signs for
+// each member. A certificate says who its holder is and in which role it may take part.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "core/result.h"
+
+namespace roboss {
+
+/// What a holder may be in a run.
+enum class Seat : std::uint8_t {
+    kController,
+    kSimulator,
+    kClient,
+    kMember,  ///< Simulator or Client
+};
+
+/// "controller", "simulator", "client" or "member".
+const char* seat_name(Seat seat);
+/// The seat of such a name; an Error lists them.
+Result<Seat> seat_of(const std::string& name);
+
+/// A certificate and its private key, PEM.
+struct KeyPair {
+    std::string certificate, key;
+};
+
+/// Whom a certificate names.
+struct Holder {
+    std::string name;
+    Seat seat = Seat::kMember;
+    std::string serial{};   ///< of the certificate, hexadecimal
+    std::string expires{};  ///< UTC, ISO 8601
+};
+
+/// A new authority, which signs itself. An Error: the system gives no random numbers.
+Result<KeyPair> new_authority(const std::string& name, int days);
+
+/// A key for this holder, and its certificate, signed by the authority. An Error: the authority's texts are no
+/// certificate and key, or the name is empty or longer than 64 bytes.
+Result<KeyPair> new_certificate(const KeyPair& authority, const Holder& holder, int days);
+
+/// Whom a certificate (PEM) names. An Error: the text is none of ours.
+Result<Holder> holder_of(const std::string& certificate);
+
+}  // namespace roboss

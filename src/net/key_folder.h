@@ -1,0 +1,23 @@
+// Keys as files: authority.crt, member.crt and member.key, and `revoked`, a line for each certificate that is not
+// accepted any more: its serial, then anything. All are readable by their owner alone.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "core/result.h"
+#include "net/tls.h"
+
+namespace roboss {
+
+/// An Error names the file: it is missing, or others may read a key.
+Result<Credentials> read_keys(const std::filesystem::path& folder);
+
+/// Creates the folder if it is missing. Writes no list of revoked ones.
+Result<> write_keys(const std::filesystem::path& folder, const Credentials& credentials);
+
+/// A file that only its owner may read, whole or not at all.
+Result<> write_private(const std::filesystem::path& file, const std::string& text);
+Result<std::string> read_text(const std::filesystem::path& file);
+
+}  // namespace roboss

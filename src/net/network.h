@@ -1,0 +1,25 @@
+// Names of interfaces and computers to IPv4 addresses.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "core/result.h"
+
+namespace roboss {
+
+/// The IPv4 address of an interface of this computer, named "eth0" or "192.0.2.7"; "0.0.0.0" is that of all. An
+/// Error lists what there is.
+Result<std::string> interface_address(const std::string& name);
+
+struct HostPort {
+    std::string address;  // IPv4
+    std::uint16_t port = 0;
+};
+/// "HOST" (port 0) or "HOST:PORT". An Error: the port is no number, or nobody has this name now.
+Result<HostPort> host_port(const std::string& text);
+
+/// Lets this process have as many connections as the system permits.
+void raise_connection_limit();
+
+}  // namespace roboss

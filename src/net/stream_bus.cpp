@@ -1,0 +1,114 @@
+// Messages to bytes and back; mailboxes here, connections in exchange.h.
+#include "net/stream_bus.h"
+
+#include <algorithm>
+
+#include "net/exchange.h"
+#include "net/mailboxes.h"
+#include "wire/codec.h"
+
+namespace roboss {
+
+class StreamBus::Network {
+  public:
+    Mailboxes mailboxes;
+    std::unique_ptr<Exchange> exchange;  // the last: its thread fills the mailboxes
+
+    static Result<std::unique_ptr<Network>> open(const NetOptions& options,
+                                                 std::optional<Exchange::Member> member) {
+        auto network = std::make_unique<Network>();
+        Result<std::unique_ptr<Exchange>> exchange =
+            Exchange::open(options, std::move(member), network->mailboxes);
+        if (!exchange) return exchange.error();
+        network->exchange = std::move(exchange).value();
+        return network;
+    }
+};
+
+StreamBus::StreamBus(std::unique_ptr<Network> network) : network_(std::move(network)) {}
+StreamBus::~StreamBus() = default;
+
+Result<std::unique_ptr<StreamBus>> StreamBus::listen(const NetOptions& options) {
+    Result<std::unique_ptr<Network>> network = Network::open(options, std::nullopt);
+    if (!network) return network.error();
+    return std::unique_ptr<StreamBus>(new StreamBus(std::move(network).value()));
+}
+
+Result<std::unique_ptr<StreamBus>> StreamBus::join(const NetOptions& options, const std::string& role,
+                                                   const std::string& name) {
+    Result<std::unique_ptr<Network>> network = Network::open(options, Exchange::Member{role, name});
+    if (!network) return network.error();
+    return std::unique_ptr<StreamBus>(new StreamBus(std::move(network).value()));
+}
+
+void StreamBus::send(const Address& from, const Address& to, Message message) {
+    Envelope envelope{from, to, std::move(message)};
+    if (network_->mailboxes.put_local(envelope)) return;
+    const bool urgent = std::holds_alternative<Heartbeat>(envelope.message);
+    std::vector<std::uint8_t> bytes = encode(envelope);
+    network_->mailboxes.count(from, to, bytes.size());
+    network_->exchange->note_own(from, to);
+    network_->exchange->send(to, std::move(bytes), urgent);
+}
+
+void StreamBus::drain(const Address& self, std::vector<Envelope>& inbox) {
+    network_->mailboxes.drain(self, inbox);
+    if (!inbox.empty()) network_->exchange->resume();
+}
+
+std::vector<Address> StreamBus::take_vanished(const Address& self) {
+    return network_->mailboxes.take_vanished(self);
+}
+
+void StreamBus::wait(std::int64_t ms_max) {
+    network_->mailboxes.wait(ms_max);
+}
+
+void StreamBus::keep_alive(const Address& from, const Address& to, const Heartbeat& heartbeat) {
+    if (network_->mailboxes.has(to)) return;  // in this process, so in the same thread
+    network_->exchange->begin_beat(from, to, encode(Envelope{from, to, heartbeat}));
+}
+
+void StreamBus::end_keep_alive(const Address& from) {
+    network_->exchange->end_beat(from);
+}
+
+std::vector<Flow> StreamBus::flows() const {
+    return network_->mailboxes.flows();
+}
+
+bool StreamBus::present(const Address& address) const {
+    return network_->mailboxes.has(address) || network_->exchange->reaches(address);
+}
+
+std::optional<std::int64_t> StreamBus::heard_ms(const Address& address) const {
+    return network_->mailboxes.heard_ms(address);
+}
+
+std::optional<Error> StreamBus::refusal() const {
+    return network_->exchange->refusal();
+}
+
+bool StreamBus::flush(std::int64_t ms_max) {
+    const std::int64_t end = now_ms() + ms_max;
+    while (!network_->exchange->all_sent()) {
+        if (now_ms() >= end) return false;
+        network_->mailboxes.wait(2);
+    }
+    return true;
+}
+
+std::vector<std::string> StreamBus::take_notices() {
+    return network_->exchange->take_notices();
+}
+
+std::string StreamBus::where() const {
+    return network_->exchange->where();
+}
+
+std::string describe(const NetOptions& options) {
+    return "simulation '" + options.simulation + "'" +
+           (options.controller.empty() ? "" : " at " + options.controller);
+}
+
+}  // namespace roboss
