@@ -123,6 +123,7 @@ Result<> Exchange::check_keys() const {
 
 Result<> Exchange::listen() {
     raise_connection_limit();
+    if (MeetingPlace::find(options_.simulation)) return MeetingPlace::taken(options_.simulation);
     const Result<std::string> address = interface_address(options_.interface);
     if (!address) return address.error();
     MeetingPlace::Note note;

@@ -22,15 +22,35 @@ bool is_alive(pid_t pid) {
     return pid > 0 && (::kill(pid, 0) == 0 || errno == EPERM);
 }
 
-/// Process, address, and whether it is insecure; of a living process.
-std::optional<MeetingPlace::Note> read_note(const fs::path& folder) {
+struct Read {
+    pid_t pid = 0;
+    MeetingPlace::Note note;
+};
+
+/// Process, address, and whether it is insecure.
+std::optional<Read> read_address(const fs::path& folder) {
     const Result<std::string> text = read_text(folder / "address");
     if (!text) return std::nullopt;
     std::istringstream words(text.value());
-    pid_t pid = 0;
-    MeetingPlace::Note note;
-    if (!(words >> pid >> note.address >> note.insecure) || !is_alive(pid)) return std::nullopt;
-    return note;
+    Read read;
+    if (words >> read.pid >> read.note.address >> read.note.insecure) return read;
+    return std::nullopt;
+}
+
+/// Of a living process.
+std::optional<MeetingPlace::Note> read_note(const fs::path& folder) {
+    const std::optional<Read> read = read_address(folder);
+    return read && is_alive(read->pid) ? std::optional(read->note) : std::nullopt;
+}
+
+/// Controllers that were killed have left theirs behind.
+void remove_dead(const fs::path& runs) {
+    std::error_code error;
+    for (const fs::directory_entry& entry : fs::directory_iterator(runs, error)) {
+        if (entry.path().extension() != ".net") continue;
+        const std::optional<Read> read = read_address(entry.path());
+        if (read && !is_alive(read->pid)) fs::remove_all(entry.path(), error);
+    }
 }
 
 }  // namespace
@@ -62,15 +82,19 @@ Result<> check_simulation_name(const std::string& name) {
                  "use at most 100 letters, digits, - _ and dots, and no dot at the start", "bad-name"};
 }
 
+Error MeetingPlace::taken(const std::string& simulation) {
+    return {"a Controller of simulation '" + simulation + "' is already running on this computer",
+            "end it, or give this run another name with --simulation", "controller-exists"};
+}
+
 Result<MeetingPlace> MeetingPlace::open(const std::string& simulation, const Note& note) {
     const Result<fs::path> runs = run_folder();
     if (!runs) return runs.error();
     const fs::path folder = runs.value() / (simulation + ".net");
-    if (read_note(folder))
-        return Error{"a Controller of simulation '" + simulation + "' is already running on this computer",
-                     "end it, or give this run another name with --simulation", "controller-exists"};
+    if (read_note(folder)) return taken(simulation);
     std::error_code error;
     fs::remove_all(folder, error);
+    remove_dead(runs.value());
     MeetingPlace place(folder);
     if (::mkdir(folder.c_str(), 0700) != 0)
         return Error{folder.string() + " cannot be made", "see the rights of its folder", "not-writable"};

@@ -26,6 +26,7 @@ class MeetingPlace {
     };
     /// An Error [controller-exists]: a living Controller of this computer and user has this name.
     static Result<MeetingPlace> open(const std::string& simulation, const Note& note);
+    static Error taken(const std::string& simulation);
     /// The note of a living Controller.
     static std::optional<Note> find(const std::string& simulation);
 

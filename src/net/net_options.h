@@ -29,7 +29,7 @@ struct NetOptions {
     /// Neither encryption nor certificates: everybody who reaches the port can take part, read and change.
     bool insecure = false;
     /// Silence after which a connection counts as lost. Every process is heard several times within it.
-    std::uint32_t liveliness_ms = 1'000;
+    std::uint32_t liveliness_ms = 900;
 };
 
 /// Whether others than this computer can reach this IPv4 address.

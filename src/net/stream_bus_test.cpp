@@ -184,6 +184,20 @@ TEST(StreamBus, AConnectionInWhichNothingIsSaidLastsLongerThanALease) {
     EXPECT_TRUE(member->take_notices().empty());
 }
 
+TEST(StreamBus, WhoSendsMoreThanIsReadHasToWait) {
+    const NetOptions options = loopback("flood");
+    const auto controller = controller_of(options), member = member_of(options, kOne);
+    ASSERT_TRUE(connected(*member));
+    constexpr std::size_t kMessages = 200;
+    for (std::size_t i = 0; i < kMessages; ++i) member->send(kOne, kControllerAddress, reply_of(1'000'000));
+    usleep(1'500'000);  // longer than a lease
+    std::uint64_t arrived = 0;
+    for (const Flow& flow : controller->flows()) arrived += flow.bytes;
+    EXPECT_LT(arrived, 80u << 20) << "of 200 MB";
+    EXPECT_EQ(receive(*controller, kControllerAddress, kMessages).size(), kMessages);
+    EXPECT_TRUE(controller->take_vanished(kControllerAddress).empty());
+}
+
 TEST(StreamBus, WrongOptionsAreRefusedInWords) {
     NetOptions options = loopback("bad");
     options.interface = "no-such-interface";

@@ -100,7 +100,8 @@ reach = ["ip", "netns", "exec", "{{host}}", "sh", "-s"]
 host = "{hosts.name(0)}"
 world = "{WORLDS / 'pile.sdf'}"
 interface = "{hosts.address(0)}"
-options = ["--simulators", "3", "--speed", "0.5", "--headless"]address = "{hosts.address(0)}"
+options = ["--simulators", "3", "--speed", "0.5", "--headless"]
+address = "{hosts.address(0)}"
 [[simulators]]
 host = "{hosts.name(1)}"
 count = 2

@@ -64,7 +64,7 @@ std::string key_script(const ClusterFile& file, const ClusterProcess& process, c
                                      folder_of_key(file, process));
     for (const auto& [name, text] : {std::pair{"authority.crt", &keys.authority},
                                      std::pair{"member.crt", &keys.own.certificate},
-                                     std::pair{"member.key", &keys.own.key}, std::pair{"revoked", &revoked}})
+                                     std::pair{"member.key", &keys.own.key}, std::pair{"revoked", &std::as_const(revoked)}})
         script += fmt::format("cat >{} <<'END-OF-KEY'\n{}END-OF-KEY\n", name, *text);
     return script + ") || exit 3\n";
 }

@@ -331,7 +331,7 @@ void add_controller_options(CLI::App& command, RunOptions& o) {
         "the run also waits for this Client before it starts (`roboss client --name`; may be repeated)");
     name_new_options(command, "Members of this run");
     add_listen_options(command, o.network);
-    limit_help_to(command, {"simulators", "local", "await-client", "interface", "simulation", "peer",
+    limit_help_to(command, {"simulators", "local", "await-client", "interface", "simulation", "keys",
                             "duration", "speed", "client", "orders", "view", "headless", "journal"});
 }
 
