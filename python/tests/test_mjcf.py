@@ -221,9 +221,9 @@ def test_quadrangles_of_meshes_are_split_as_in_mujoco():
     assert abs(2 * robot.energy[0][0] - mass) < 1e-6 * mass
 
 
-KEYED = """<mujoco><worldbody><geom type="plane" size="5 5 .1"/>
+KEYED = """<mujoco><compiler angle="radian"/><worldbody><geom type="plane" size="5 5 .1"/>
   <body name="hand" mocap="true" pos="3 0 1"><geom size=".05" contype="0" conaffinity="0"/></body>
-  <body name="dog" pos="0 0 1" euler="0 0 30"><freejoint/><geom type="box" size=".3 .2 .1"/>
+  <body name="dog" pos="0 0 1" euler="0 0 .5"><freejoint/><geom type="box" size=".3 .2 .1"/>
     <body name="leg" pos=".2 0 0"><joint name="hip" axis="0 1 0" ref=".2"/><geom type="capsule" fromto="0 0 0 0 0 -.3" size=".03"/>
       <body name="foot" pos="0 0 -.3"><joint name="ankle" type="ball" pos="0 0 .02"/><geom size=".05" pos=".05 0 0"/></body></body></body>
   <replicate count="2" offset="0 1 0"><body name="post" pos="1 0 0"><joint name="turn"/><geom size=".1" pos="0 0 1"/></body></replicate>

@@ -18,7 +18,7 @@ std::string name_of(const Element& key, std::size_t number) {
 std::vector<Element> keys_of(const Document& document) {
     std::vector<Element> keys;
     for (const Element& element : document.in_sections("keyframe"))
-        if (element.name() == "key") keys.push_back(element);
+        if (std::string(element.node.name()) == "key") keys.push_back(element);
     return keys;
 }
 

@@ -202,8 +202,10 @@ class Judge {
                 gain += courses_[r].unexplained[k + 1] - courses_[r].unexplained.front();
                 fallen += courses_[r].fallen[k + 1];
             }
-            const double explained = norm(model_.gravity) * f.depth + (f.depth > 0 ? 0.5 * soft * soft : 0) +
-                                     kFallErrorMost * fallen / mass;
+            // What lies in each other is raised by its depth, one on top of the other; soft surfaces part at a
+            // speed, of the common centre and of the parts against each other.
+            const double raised = norm(model_.gravity) * f.depth * static_cast<double>(group.size()),
+                         explained = raised + (f.depth > 0 ? soft * soft : 0) + kFallErrorMost * fallen / mass;
             if (k > 0 && gain / mass - explained <= f.gain - f.explained) continue;
             f.gain = gain / mass, f.explained = explained, f.time_s = times_[k];
         }

@@ -67,7 +67,11 @@ int main(int argc, char** argv) {
         awake = compile(*world, {.sleep = false}, diagnostics);
     }
     if (!model || !awake) {
-        std::cout << nlohmann::json{{"refused", true}} << '\n';
+        nlohmann::json errors = nlohmann::json::array();
+        for (const Diagnostic& d : diagnostics.items())
+            if (d.severity == Severity::kError) errors.push_back(to_text(d));
+        const nlohmann::json out{{"errors", errors}};
+        std::cout << out.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) << '\n';
         return 3;
     }
     if (o.on_ground) model = stood_on_ground(*model, {o.file, 0}, diagnostics);
