@@ -12,6 +12,7 @@
 
 #include "core/union_find.h"
 #include "onboard_kinds/onboard_spec.h"
+#include "physics/dynamics/motor_effort.h"
 #include "physics/step.h"
 
 namespace roboss::corpus {
@@ -71,13 +72,18 @@ std::vector<RobotState> initial_states(const Model& model) {
     return states;
 }
 
-/// Work of the motors of the tree in one tick, J.
-double motor_work(const RobotType& type, const RobotState& before, const RobotState& after) {
+/// Work of the motors in one tick, J.
+double motor_work(const Model& model, RobotId robot, const RobotState& before, const RobotState& after) {
+    const RobotType& type = model.type_of(robot);
     double work = 0;
-    for (std::size_t i = 0; i < type.dofs.size(); ++i) {
-        const std::size_t v = static_cast<std::size_t>(type.base_nv()) + i;
-        work += after.motors[i].impulse * 0.5 * (before.v[v] + after.v[v]);
-    }
+    for (std::size_t j = 0; j < type.joints.size(); ++j)
+        for (int axis = 0; axis < type.joints[j].nv; ++axis) {
+            const JointId joint(j);
+            if (after.motors[type.motor_index(type.joints[j], axis)].mode == MotorMode::kPassive) continue;
+            const double rate = 0.5 * (joint_state(type, before, joint, axis).velocity +
+                                       joint_state(type, after, joint, axis).velocity);
+            work += motor_effort(model, type, after, joint, axis) * rate * model.dt_s;
+        }
     return work;
 }
 
@@ -143,7 +149,7 @@ class Judge {
   private:
     void follow() {
         for (std::size_t r = 0; r < courses_.size(); ++r)
-            courses_[r].work += motor_work(model_.type_of(RobotId(r)), before_[r], stepper_.states()[r]);
+            courses_[r].work += motor_work(model_, RobotId(r), before_[r], stepper_.states()[r]);
         for (const ContactReport& c : stepper_.contacts()) {
             Course& a = courses_[c.robot_a.index()];
             a.depth = std::fmax(a.depth, -c.gap);
