@@ -107,7 +107,8 @@ class TypeFacts:
 
 def load(source: Union[str, os.PathLike], *, search_paths: Iterable[Union[str, os.PathLike]] = (), profile: str = "",
          ground: bool = False, fixed_base: Iterable[str] = (), dt: Optional[float] = None, sleep: Optional[bool] = None,
-         accuracy: str = "", precision: Optional[str] = None, strict: bool = False, on_ground: bool = False) -> World:
+         accuracy: str = "", precision: Optional[str] = None, strict: bool = False, on_ground: bool = False,
+         keyframe: str = "") -> World:
     """Reads and compiles a world.
 
     Args:
@@ -122,6 +123,7 @@ def load(source: Union[str, os.PathLike], *, search_paths: Iterable[Union[str, o
         precision: "double" or "float", in which lone robots are stepped; None: the world's choice.
         strict: refuse a world of which a model had to be left out.
         on_ground: stand the robots on the ground, box or mesh below them, with their lowest collision shape.
+        keyframe: of an MJCF file: name or number of the `<key>` that the world starts from; "": as the bodies stand.
 
     Raises:
         WorldError: the world cannot be used; its text has all errors with file and line.
@@ -148,7 +150,8 @@ def load(source: Union[str, os.PathLike], *, search_paths: Iterable[Union[str, o
         source, is_text, [file_path("search_paths", path) for path in listed("search_paths", search_paths)],
         text("profile", profile), flag("ground", ground), names_of("fixed_base", listed("fixed_base", fixed_base)),
         None if dt is None else real("dt", dt), None if sleep is None else flag("sleep", sleep),
-        text("accuracy", accuracy), None if precision is None else precision == "float", flag("on_ground", on_ground))
+        text("accuracy", accuracy), None if precision is None else precision == "float", flag("on_ground", on_ground),
+        text("keyframe", keyframe))
     errors = [finding for finding in findings if finding.severity == "error"]
     if model is None or (flag("strict", strict) and errors):
         file = "the text" if is_text else f"'{source}'"

@@ -224,10 +224,11 @@ void bind_world(nb::module_& module) {
         "load",
         [](std::string source, bool is_text, std::vector<std::string> search_paths, std::string profile,
            bool ground, std::vector<std::string> fixed_base, std::optional<double> dt,
-           std::optional<bool> sleep, std::string accuracy, std::optional<bool> floats, bool on_ground) {
+           std::optional<bool> sleep, std::string accuracy, std::optional<bool> floats, bool on_ground,
+           std::string keyframe) {
             Wanted wanted{std::move(source),
                           is_text,
-                          {std::move(search_paths), std::move(profile), false},
+                          {std::move(search_paths), std::move(profile), false, std::move(keyframe)},
                           {ground, std::move(fixed_base)},
                           {.dt_s = dt, .sleep = sleep}};
             wanted.compile.accuracy.setting = std::move(accuracy);
@@ -238,7 +239,7 @@ void bind_world(nb::module_& module) {
         },
         nb::arg("source"), nb::arg("is_text"), nb::arg("search_paths"), nb::arg("profile"), nb::arg("ground"),
         nb::arg("fixed_base"), nb::arg("dt").none(), nb::arg("sleep").none(), nb::arg("accuracy"),
-        nb::arg("floats").none(), nb::arg("on_ground"));
+        nb::arg("floats").none(), nb::arg("on_ground"), nb::arg("keyframe"));
 }
 
 }  // namespace roboss_python

@@ -163,6 +163,127 @@ def test_a_robot_that_stands_in_mujoco_stands():
     assert np.abs(trunk.qvel).max() < 0.01
 
 
+CURVE = [0.05, 0.4, -0.3, 0.25, 0.1]  # follower = polynomial of the leader
+
+
+def curved(dt, flags=""):
+    """A pendulum that moves a slider along a curve."""
+    bodies = ('<body name="a"><joint name="lead" axis="0 1 0"/><geom size=".05" pos="0 0 -.5" mass="2"/></body>'
+              '<body name="b" pos="0 1 0"><joint name="follow" type="slide" axis="1 0 0"/><geom size=".1" mass="3"/></body>')
+    coefficients = " ".join(map(str, CURVE))
+    return mjcf(bodies, f'<option timestep="{dt}"/><equality><joint joint1="follow" joint2="lead" {flags} '
+                        f'polycoef="{coefficients}"/></equality>')
+
+
+def curved_exactly(angle, seconds):
+    """The leader after that time, from rest: Lagrange's equation by Runge-Kutta steps of fourth order."""
+    poly = np.polynomial.Polynomial(CURVE)
+    slope, bend = poly.deriv(), poly.deriv(2)
+    inertia, weight = 2 * (0.5**2 + 0.4 * 0.05**2), 2 * 9.81 * 0.5
+
+    def rate(y):
+        q, v = y
+        return np.array([v, -(weight * np.sin(q) + 3 * slope(q) * bend(q) * v * v) / (inertia + 3 * slope(q)**2)])
+
+    y, h = np.array([angle, 0.0]), 1e-4
+    for _ in range(round(seconds / h)):
+        a = rate(y)
+        b = rate(y + h / 2 * a)
+        c = rate(y + h / 2 * b)
+        y = y + h / 6 * (a + 2 * b + 2 * c + rate(y + h * c))
+    return y[0]
+
+
+def test_a_curved_equality_moves_as_in_mujoco():
+    start = np.array([0.9, np.polynomial.Polynomial(CURVE)(0.9)])
+    model = mujoco.MjModel.from_xml_string(curved(2e-4, 'solref="0.0005 1" solimp=".9999 .9999 .001"'))
+    data = mujoco.MjData(model)
+    data.qpos[:] = start
+    sim = roboss.Simulation(curved(5e-4), threads=1)
+    assert sim.world.robots == ("a",)
+    robot = sim.robots("a")
+    robot.qpos = start
+    for tenth in range(1, 16):
+        mujoco.mj_step(model, data, 500)
+        sim.step(200)
+        mine = robot.qpos[0]
+        assert abs(mine[1] - np.polynomial.Polynomial(CURVE)(mine[0])) < 1e-6
+        assert abs(mine[0] - curved_exactly(0.9, tenth / 10)) < 2e-3
+        assert np.abs(mine - data.qpos).max() < 3e-3, (tenth, mine, data.qpos)
+
+
+def test_quadrangles_of_meshes_are_split_as_in_mujoco():
+    path = str(REPOSITORY / "tests" / "cases" / "q.xml")
+    mass = mujoco.MjModel.from_xml_path(path).body_mass[1]
+    robot = roboss.Simulation(roboss.load(path), threads=1).robots("b")
+    robot.qvel = [1, 0, 0, 0, 0, 0]
+    assert abs(mass - 1166.667) < 0.01  # along the other diagonal: 1083.3
+    assert abs(2 * robot.energy[0][0] - mass) < 1e-6 * mass
+
+
+KEYED = """<mujoco><compiler angle="radian"/><worldbody><geom type="plane" size="5 5 .1"/>
+  <body name="hand" mocap="true" pos="3 0 1"><geom size=".05" contype="0" conaffinity="0"/></body>
+  <body name="dog" pos="0 0 1" euler="0 0 .5"><freejoint/><geom type="box" size=".3 .2 .1"/>
+    <body name="leg" pos=".2 0 0"><joint name="hip" axis="0 1 0" ref=".2"/><geom type="capsule" fromto="0 0 0 0 0 -.3" size=".03"/>
+      <body name="foot" pos="0 0 -.3"><joint name="ankle" type="ball" pos="0 0 .02"/><geom size=".05" pos=".05 0 0"/></body></body></body>
+  <replicate count="2" offset="0 1 0"><body name="post" pos="1 0 0"><joint name="turn"/><geom size=".1" pos="0 0 1"/></body></replicate>
+  </worldbody>
+  <keyframe><key name="lie" qpos="{q0}"/><key name="jump" qpos="{q}" qvel="{v}" mpos="1 2 3" mquat="0 1 0 0"/></keyframe></mujoco>"""
+
+
+def keyed():
+    random = np.random.default_rng(7)
+    q, v = random.uniform(-1, 1, 14), random.uniform(-1, 1, 12)
+    q[2] = 2
+    for at in (3, 8):
+        q[at:at + 4] /= np.linalg.norm(q[at:at + 4])
+    text = KEYED.format(q0=" ".join(map(str, [*q[:13], 0.25])), q=" ".join(map(repr, map(float, q))),
+                        v=" ".join(map(repr, map(float, v))))
+    return text, q, v
+
+
+@pytest.mark.parametrize("name", ["jump", "1"])
+def test_a_world_starts_at_a_keyframe_as_mujoco_does(name):
+    text, q, v = keyed()
+    model = mujoco.MjModel.from_xml_string(text)
+    data = mujoco.MjData(model)
+    mujoco.mj_resetDataKeyframe(model, data, 1)
+    mujoco.mj_forward(model, data)
+    sim = roboss.Simulation(roboss.load(text, keyframe=name), threads=1)
+    mine_q = np.concatenate([sim.robots([robot]).qpos[0] for robot in ("dog", "post0", "post1")])
+    mine_v = np.concatenate([sim.robots([robot]).qvel[0] for robot in ("dog", "post0", "post1")])
+    for at in (3, 8):
+        mine_q[at:at + 4] *= np.sign(mine_q[at:at + 4] @ q[at:at + 4])
+    assert np.allclose(mine_q, q, rtol=0, atol=1e-12)
+    assert np.allclose(mine_v, v, rtol=0, atol=1e-9)
+    for link in ("dog", "leg", "foot"):
+        assert np.allclose(sim.robots("dog").link_pose(link)[0, :3], data.body(link).xpos, rtol=0, atol=1e-12)
+    assert np.allclose(sim.robots("hand").pose[0, :3], data.body("hand").xpos, rtol=0, atol=1e-12)
+
+
+def test_a_world_starts_where_bodies_stand_and_names_its_keyframes():
+    text, _, _ = keyed()
+    world = roboss.load(text)
+    sim = roboss.Simulation(world, threads=1)
+    assert np.allclose(sim.robots("dog").qpos[0, :3], [0, 0, 1]) and abs(sim.robots("dog").qpos[0, 7] - 0.2) < 1e-12
+    notes = [finding.message for finding in world.diagnostics if finding.code == "keyframe"]
+    assert len(notes) == 1 and "lie, jump" in notes[0]
+
+
+@pytest.mark.parametrize("text, keyframe, code, hint", [
+    (keyed()[0], "leap", "no-keyframe", "lie, jump"),
+    (keyed()[0], "2", "no-keyframe", "lie, jump"),
+    (mjcf(f"<body>{BALL}</body>"), "0", "no-keyframe", "none"),
+    (mjcf(f"<body><joint/>{BALL}</body>", '<keyframe><key qpos="1 2"/></keyframe>'), "0", "bad-value", ""),
+    ('<sdf version="1.9"><model name="m"><link name="l"/></model></sdf>', "home", "no-keyframe", "state"),
+])
+def test_unknown_keyframes_are_refused(text, keyframe, code, hint):
+    with pytest.raises(roboss.WorldError) as error:
+        roboss.load(text, keyframe=keyframe)
+    found = [finding for finding in error.value.diagnostics if finding.code == code]
+    assert found and hint in found[0].remedy
+
+
 def test_copies_are_of_one_type():
     post = '<body name="post"><joint name="j" axis="0 1 0"/><geom size=".1" pos="0 0 1"/><body pos="0 0 1"><joint/><geom size=".1"/></body></body>'
     sim = roboss.Simulation(mjcf(f'<replicate count="12" offset="1 0 0">{post}</replicate>'), threads=1)

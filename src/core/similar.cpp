@@ -2,6 +2,7 @@
 #include "core/similar.h"
 
 #include <algorithm>
+#include <cctype>
 #include <numeric>
 #include <utility>
 
@@ -42,6 +43,16 @@ std::string did_you_mean(const std::string& word, const std::vector<std::string>
                          const std::string& otherwise) {
     const std::string name = similar_to(word, names);
     return name.empty() ? otherwise : "did you mean '" + name + "'?";
+}
+
+std::string pattern_of(const std::string& text) {
+    std::string pattern;
+    bool in_quotes = false;
+    for (const char c : text) {
+        if (c == '\'') in_quotes = !in_quotes;
+        if (!in_quotes && std::isdigit(static_cast<unsigned char>(c)) == 0) pattern += c;
+    }
+    return pattern;
 }
 
 }  // namespace roboss

@@ -1,4 +1,5 @@
-// Which name was probably meant by a word that is none of them.
+// Texts that are alike: which name was probably meant by a word that is none of them, and what messages about
+// different things have in common.
 #pragma once
 
 #include <string>
@@ -12,5 +13,9 @@ std::string similar_to(const std::string& word, const std::vector<std::string>& 
 /// "did you mean 'NAME'?", or `otherwise` if no name is much like the word.
 std::string did_you_mean(const std::string& word, const std::vector<std::string>& names,
                          const std::string& otherwise);
+
+/// The text without what stands in quotes, and without digits: equal for "robot 'a' has 3 wheels" and "robot
+/// 'b' has 4".
+std::string pattern_of(const std::string& text);
 
 }  // namespace roboss

@@ -6,6 +6,7 @@
 
 #include "mjcf/actuators.h"
 #include "mjcf/equalities.h"
+#include "mjcf/keyframe.h"
 #include "mjcf/robots.h"
 #include "mjcf/sensors.h"
 #include "mjcf/sub_models.h"
@@ -57,6 +58,7 @@ std::optional<World> load_mjcf(std::unique_ptr<xml::SourceFile> file, const Mjcf
     read_equalities(robots, parts);
     read_actuators(robots, parts);
     read_sensors(robots, parts);
+    start_at_keyframe(options.keyframe, document, robots, diagnostics);
     World world = empty_world(document, settings);
     robots.move_to(world);
     if (diagnostics.refuses()) return std::nullopt;

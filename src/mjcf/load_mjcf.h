@@ -18,6 +18,7 @@ namespace roboss {
 struct MjcfOptions {
     std::vector<std::string> search_paths;  ///< for meshes and pictures, after those that the file names
     bool looks = true;                      ///< reads also meshes that are only drawn
+    std::string keyframe{};                 ///< to start from: name or number of a <key>; empty: none
 };
 
 /// The world of a file whose root element is <mujoco>, checked as validate() does. nullopt if it cannot be

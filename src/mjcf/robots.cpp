@@ -163,8 +163,8 @@ std::size_t Robots::start_model(std::size_t body) {
     model.self_collide = !model.is_static && !model.kinematic;
     model.shared_names = true;
     model.may_sleep = true;
+    starts_.push_back({{}, 0, root.X_PB, model.where});
     models_.push_back(std::move(model));
-    X_WM_.push_back(root.X_PB);
     return models_.size() - 1;
 }
 
@@ -172,7 +172,7 @@ void Robots::add_body(std::size_t index) {
     const BodyPart& body = tree_.bodies[index];
     ModelSpec& model = models_[model_of_[index]];
     const bool is_root = roots_[index] == index;
-    Pose X = is_root ? inverse(X_WM_[model_of_[index]]) * body.X_PB : X_MB_[body.parent] * body.X_PB;
+    Pose X = is_root ? inverse(place_of(index)) * body.X_PB : X_MB_[body.parent] * body.X_PB;
     if (is_root && model.links.empty()) X = {};  // it is the model's frame
     const std::string parent = is_root ? "world" : local_name(body.parent);
     const std::string last = is_free(body) || model.is_static ? parent : add_joints(body, parent, X);
@@ -264,7 +264,8 @@ void Robots::move_to(World& world) {
                                          link.sensors.empty() && link.lights.empty();
                               });
         if (is_empty) continue;
-        world.instances.push_back({model.name, world.prototypes.size(), X_WM_[m], model.where});
+        starts_[m].name = model.name, starts_[m].prototype = world.prototypes.size();
+        world.instances.push_back(std::move(starts_[m]));
         world.prototypes.push_back(std::move(model));
     }
 }

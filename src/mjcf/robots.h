@@ -44,7 +44,9 @@ class Robots {
     /// Pose of a body in its model, all joints at zero.
     const Pose& pose_of(std::size_t body) const { return X_MB_[body]; }
     /// Pose of a body's model in the world.
-    const Pose& place_of(std::size_t body) const { return X_WM_[model_of_[body]]; }
+    const Pose& place_of(std::size_t body) const { return starts_[model_of_[body]].X_WM; }
+    /// How a body's model starts; its name and prototype are set by move_to().
+    ModelInstance& start_of(std::size_t body) { return starts_[model_of_[body]]; }
     const Tree& tree() const { return tree_; }
 
     /// Hands the models over.
@@ -68,7 +70,7 @@ class Robots {
     std::vector<std::size_t> model_of_, link_index_;
     std::vector<std::vector<std::size_t>> joint_index_;  // by body, by joint
     std::vector<ModelSpec> models_;
-    std::vector<Pose> X_WM_;
+    std::vector<ModelInstance> starts_;  // by model
 };
 
 }  // namespace roboss::mjcf

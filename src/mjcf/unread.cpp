@@ -99,6 +99,7 @@ constexpr Row kRows[] = {
     {"", "velocity", kDriveRead, "", "delay"},
     {"", "intvelocity", kDriveRead, "actlimited actrange", "delay"},
     {"", "damper", kDriveRead, "", "delay"},
+    {"keyframe", "key", "name time qpos qvel act ctrl mpos mquat", "", ""},
 };
 
 /// What the kinds of actuators have beside kDriveRead.
@@ -126,7 +127,6 @@ constexpr LeftOut kLeftOut[] = {
     {"texture", kNote, "surfaces are drawn in their colours"},
     {"skin", kNote, "skins are not drawn"},
     {"camera", kNote, "there are no cameras"},
-    {"keyframe", kNote, "the world starts where the bodies are placed; set qpos instead"},
     {"extension", kWarning, "plugins of MuJoCo are not run"},
     {"plugin", kWarning, "plugins of MuJoCo are not run"},
     {"deformable", kWarning, "bodies are rigid"},
@@ -141,7 +141,8 @@ constexpr LeftOut kLeftOut[] = {
 /// Elements that other parts of the importer tell about, or that stand in sections which they read by name.
 constexpr std::string_view kElsewhere[] = {"asset",       "contact",  "actuator", "sensor",   "include",
                                            "composite",   "flexcomp", "layer",    "adhesion", "cylinder",
-                                           "orientation", "pid",      "dcmotor",  "tendon"};
+                                           "orientation", "pid",      "dcmotor",  "tendon",
+                                           "keyframe"};
 
 bool has_word(std::string_view list, std::string_view word) {
     const auto words = xml::words_of(list);

@@ -22,6 +22,8 @@ struct LoadOptions {
     /// Reads also what is only drawn: meshes and pictures of visuals. Without, such files are looked for, not
     /// opened.
     bool looks = true;
+    /// Name or number of the keyframe of an MJCF file that the world starts from; empty: as the bodies stand.
+    std::string keyframe{};
 };
 
 /// The world of `file` (its first one; a file with a model only becomes a world with that model), checked as

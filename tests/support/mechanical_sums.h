@@ -35,9 +35,15 @@ class MechanicalSummer {
 
     /// All robots of the world, states by RobotId.
     MechanicalSums operator()(const std::vector<RobotState>& states) {
-        sums_ = {};
-        motions_.clear();
+        clear();
         for (std::size_t r = 0; r < states.size(); ++r) add(model_.type_of(RobotId(r)), states[r]);
+        add_scales();
+        return sums_;
+    }
+    /// One robot.
+    MechanicalSums of(RobotId robot, const RobotState& state) {
+        clear();
+        add(model_.type_of(robot), state);
         add_scales();
         return sums_;
     }
@@ -46,6 +52,11 @@ class MechanicalSummer {
     struct LinkMotion {
         Vec3 centre, momentum, spin;
     };
+
+    void clear() {
+        sums_ = {};
+        motions_.clear();
+    }
 
     void add(const RobotType& type, const RobotState& state) {
         forward_kinematics<double>(type, state.q, work_);

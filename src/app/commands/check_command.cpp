@@ -43,6 +43,7 @@ struct CheckOptions {
     std::vector<std::string> worlds, paths;
     BareModelOptions bare;
     bool on_ground = false;
+    std::string keyframe;
     bool json = false, all = false, names = false;
 };
 
@@ -217,7 +218,7 @@ nlohmann::json to_json(const std::vector<PluginReport>& plugins) {
 /// Prints the report on one file, or adds it to `reports`. Returns its exit code.
 int check(const std::string& file, const CheckOptions& options, nlohmann::json& reports) {
     Diagnostics diagnostics;
-    std::optional<World> world = load_world(file, {options.paths}, diagnostics);
+    std::optional<World> world = load_world(file, {options.paths, {}, true, options.keyframe}, diagnostics);
     if (world)
         if (const Result<> completed = complete(*world, options.bare); !completed)
             diagnostics.error({file, 0}, completed.error().code, completed.error().message,
@@ -292,6 +293,9 @@ void add_check_command(CLI::App& app, int& exit_code) {
         ->take_all();
     command->add_flag("--on-ground", options->on_ground,
                       "as of `roboss run`: stand the robots on the ground below them");
+    command
+        ->add_option("--keyframe", options->keyframe, "as of `roboss run`: start an MJCF file at this <key>")
+        ->type_name("NAME");
     command->add_flag("--all", options->all, "print every finding (default: one of those that are alike)");
     command->add_flag(
         "--names", options->names,

@@ -4,27 +4,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <map>
 #include <utility>
 
+#include "core/similar.h"
+
 namespace roboss {
-namespace {
-
-/// The text without what stands in quotes, and without digits: equal for "robot 'a' has 3 wheels" and "robot
-/// 'b' has 4".
-std::string pattern_of(const std::string& text) {
-    std::string pattern;
-    bool in_quotes = false;
-    for (const char c : text) {
-        if (c == '\'') in_quotes = !in_quotes;
-        if (!in_quotes && std::isdigit(static_cast<unsigned char>(c)) == 0) pattern += c;
-    }
-    return pattern;
-}
-
-}  // namespace
-
 std::vector<FindingGroup> group_findings(const Diagnostics& diagnostics, Severity severity) {
     std::vector<FindingGroup> groups;
     std::map<std::pair<std::string, std::string>, std::size_t> index;

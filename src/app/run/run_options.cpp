@@ -235,6 +235,11 @@ void add_common_options(CLI::App& command, RunOptions& o) {
         "--profile", o.profile,
         "name of the world's <physics> to use (default: the one with default=\"true\", else the "
         "first); where the time of the steps goes: --profile-steps");
+    command
+        .add_option("--keyframe", o.keyframe,
+                    "start an MJCF file at this <key> of its <keyframe>: name or number (default: where the "
+                    "bodies stand, as MuJoCo does)")
+        ->type_name("NAME");
     add_accuracy_options(command, o.accuracy);
     command
         .add_option_function<std::string>(

@@ -24,6 +24,7 @@ struct RunOptions {
     std::optional<double> duration_s;
     std::optional<double> dt_s;
     std::string profile;     // of <physics>
+    std::string keyframe;    // of an MJCF file, that the world starts from
     bool strict = false;     // a model with errors refuses the world; else it is left out
     BareModelOptions bare;   // what is added to the world
     bool on_ground = false;  // robots are stood on the scenery below them

@@ -9,6 +9,7 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "core/similar.h"
 #include "model/addressee.h"
 #include "model/robot_names.h"
 #include "model/topics.h"
@@ -20,10 +21,54 @@ using nlohmann::json;
 
 /// A fault in one line; caught in parse_orders, where it becomes a diagnostic.
 struct LineFault : std::runtime_error {
-    LineFault(const std::string& message, std::string what_to_do)
-        : std::runtime_error(message), remedy(std::move(what_to_do)) {}
+    LineFault(const std::string& message, std::string what_to_do, Severity how_bad = Severity::kError)
+        : std::runtime_error(message), remedy(std::move(what_to_do)), severity(how_bad) {}
     std::string remedy;
-    Severity severity = Severity::kError;
+    Severity severity;
+};
+
+/// The faults of one line, those of robots that refuse it for the same cause as one.
+class LineFaults {
+  public:
+    /// `robot`: the one that refuses the line; empty: the line itself is wrong.
+    void add(const LineFault& fault, const std::string& robot) {
+        const std::string pattern = pattern_of(fault.what());
+        const auto same = std::ranges::find_if(kinds_, [&](const Kind& kind) {
+            return kind.pattern == pattern && kind.fault.severity == fault.severity;
+        });
+        Kind& kind = same != kinds_.end() ? *same : kinds_.emplace_back(Kind{pattern, fault, {}});
+        kind.robots.push_back(robot);
+    }
+    /// Whether any is an error: then the line gives no order.
+    bool refuse() const {
+        return std::ranges::any_of(
+            kinds_, [](const Kind& kind) { return kind.fault.severity == Severity::kError; });
+    }
+    void report(const SourceLocation& where, Diagnostics& diagnostics) const {
+        for (const Kind& kind : kinds_)
+            diagnostics.add(
+                {kind.fault.severity, where, "bad-order", message_of(kind), kind.fault.remedy, false});
+    }
+
+  private:
+    struct Kind {
+        std::string pattern;
+        LineFault fault;
+        std::vector<std::string> robots;
+    };
+
+    static std::string message_of(const Kind& kind) {
+        constexpr std::size_t kNamed = 3;
+        const std::size_t count = kind.robots.size();
+        if (count == 1) return kind.fault.what();
+        std::string names;
+        for (std::size_t i = 0; i < std::min(count, kNamed); ++i)
+            names += (i == 0 ? "'" : ", '") + kind.robots[i] + "'";
+        if (count > kNamed) names += ", ...";
+        return std::to_string(count) + " robots refuse it (" + names + "): " + kind.fault.what();
+    }
+
+    std::vector<Kind> kinds_;
 };
 
 void only_keys(const json& object, const char* what, std::initializer_list<const char*> keys) {
@@ -384,8 +429,21 @@ Action parse_action(const json& o, const Model& model, RobotId id) {
     return parse_transmit(o["transmit"], model, id);
 }
 
+/// Adds the order, or why it is refused.
+void take(Order order, const Model& model, std::vector<Order>& orders, LineFaults& faults) {
+    if (const Result<> checked = check_order(model, order); !checked) {
+        // The fault of the robot's file, not of the order: exporters write limits of 0. The other orders run.
+        const bool powerless = checked.error().code == "no-effort";
+        faults.add({checked.error().message, checked.error().remedy,
+                    powerless ? Severity::kWarning : Severity::kError},
+                   model.robots[order.robot.index()].name);
+        return;
+    }
+    orders.push_back(std::move(order));
+}
+
 /// One order for each robot that the line names.
-std::vector<Order> parse_order(const json& o, const Model& model) {
+void parse_order(const json& o, const Model& model, std::vector<Order>& orders, LineFaults& faults) {
     only_keys(o, "an order",
               {"t", "robot", "set_pose", "set_velocity", "wrench", "joint", "joint_state", "command",
                "attach", "detach", "pull", "transmit"});
@@ -396,29 +454,31 @@ std::vector<Order> parse_order(const json& o, const Model& model) {
         throw LineFault("the order has " + std::to_string(actions) + " actions",
                         "name one of set_pose, set_velocity, wrench, pull, joint, joint_state, command, "
                         "attach, detach, transmit, or publish without a robot");
-    std::vector<Order> orders;
     for (const RobotId robot : robots) {
         Order order;
         order.apply_at = tick;
         order.robot = robot;
-        order.action = parse_action(o, model, robot);
-        orders.push_back(std::move(order));
+        try {
+            order.action = parse_action(o, model, robot);
+            take(std::move(order), model, orders, faults);
+        } catch (const LineFault& fault) {
+            faults.add(fault, model.robots[robot.index()].name);
+        }
     }
-    return orders;
 }
 
-std::vector<Order> parse_line(const std::string& line, const Model& model) {
-    const json o = parse_json(line);
-    std::vector<Order> orders =
-        o.is_object() && o.contains("publish") ? parse_publish(o, model) : parse_order(o, model);
-    for (const Order& order : orders) {
-        const Result<> checked = check_order(model, order);
-        if (checked) continue;
-        LineFault fault(checked.error().message, checked.error().remedy);
-        // The fault of the robot's file, not of the order: exporters write limits of 0. The other orders run.
-        if (checked.error().code == "no-effort") fault.severity = Severity::kWarning;
-        throw fault;
+std::vector<Order> parse_line(const std::string& line, const Model& model, LineFaults& faults) {
+    std::vector<Order> orders;
+    try {
+        const json o = parse_json(line);
+        if (o.is_object() && o.contains("publish"))
+            for (Order& order : parse_publish(o, model)) take(std::move(order), model, orders, faults);
+        else
+            parse_order(o, model, orders, faults);
+    } catch (const LineFault& fault) {
+        faults.add(fault, {});
     }
+    if (faults.refuse()) orders.clear();
     return orders;
 }
 
@@ -514,16 +574,14 @@ std::vector<Order> parse_orders(std::string_view content, const std::string& fil
     for (int at = 1; std::getline(lines, line); ++at) {
         const std::size_t start = line.find_first_not_of(" \t\r");
         if (start == std::string::npos || line[start] == '#') continue;
-        try {
-            std::uint64_t sequence = static_cast<std::uint64_t>(at);
-            for (Order& order : parse_line(line, model)) {
-                order.sequence = sequence;
-                orders.push_back(std::move(order));
-                sequence += std::uint64_t{1} << 32;  // a line may give several; no two may be equal
-            }
-        } catch (const LineFault& fault) {
-            diagnostics.add({fault.severity, {file, at}, "bad-order", fault.what(), fault.remedy, false});
+        LineFaults faults;
+        std::uint64_t sequence = static_cast<std::uint64_t>(at);
+        for (Order& order : parse_line(line, model, faults)) {
+            order.sequence = sequence;
+            orders.push_back(std::move(order));
+            sequence += std::uint64_t{1} << 32;  // a line may give several; no two may be equal
         }
+        faults.report({file, at}, diagnostics);
     }
     return orders;
 }

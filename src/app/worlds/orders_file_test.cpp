@@ -347,6 +347,34 @@ TEST(OrdersFile, OneRobotOfAPatternThatRefusesRefusesTheLine) {
     EXPECT_EQ(d.items().size(), 1u);
 }
 
+TEST(OrdersFile, RobotsOfAPatternThatRefuseForOneCauseAreOneFinding) {
+    Diagnostics d;
+    EXPECT_TRUE(parse_orders(R"({"t":1,"robot":"*","joint":{"name":"elbow","velocity":1}})", "f.jsonl",
+                             *swarm_model(), d)
+                    .empty());
+    ASSERT_EQ(d.items().size(), 1u);
+    EXPECT_NE(d.items()[0].message.find("4 robots refuse it ('X2', 'Y1', 'X10', ...)"), std::string::npos)
+        << d.items()[0].message;
+    EXPECT_EQ(d.items()[0].where.line, 1);
+}
+
+TEST(OrdersFile, RobotsOfAPatternWithoutEffortLeaveTheOrdersOfTheOthers) {
+    World world = cart_world();
+    world.prototypes.push_back(world.prototypes[0]);
+    world.prototypes[1].joints[0].axes[0].max_effort = 0;
+    for (int i = 0; i < 6; ++i)
+        world.instances.push_back({"cart_" + std::to_string(i), static_cast<std::size_t>(i % 2), {}, {}});
+    Diagnostics compiling, d;
+    const auto model = compile(world, {}, compiling);
+    const auto orders = parse_orders(R"({"t":1,"robot":"cart_*","joint":{"name":"slide","velocity":1}})",
+                                     "f.jsonl", *model, d);
+    ASSERT_EQ(orders.size(), 3u);
+    EXPECT_EQ(orders[2].robot.value, 5u);
+    ASSERT_EQ(d.items().size(), 1u);
+    EXPECT_EQ(d.items()[0].severity, Severity::kWarning);
+    EXPECT_NE(d.items()[0].message.find("3 robots refuse it"), std::string::npos) << d.items()[0].message;
+}
+
 TEST(OrdersFile, AFileThatIsNotThereIsAnError) {
     Diagnostics d;
     EXPECT_TRUE(load_orders("no/such/file.jsonl", *cart_model(), d).empty());

@@ -173,5 +173,67 @@ TEST(Start, OnTheGroundThrowsNobody) {
     EXPECT_LT(state.q[2], 0.5 * height);
 }
 
+/// A world at one of its keyframes.
+std::shared_ptr<const Model> at_keyframe(const std::string& text, const std::string& keyframe,
+                                         Diagnostics& diagnostics) {
+    LoadOptions options;
+    options.keyframe = keyframe;
+    auto world = load_world_text(text, "keyed", options, diagnostics);
+    return world ? compile(*world, {}, diagnostics) : nullptr;
+}
+
+constexpr const char* kKeyed =
+    "<mujoco><compiler angle='radian'/><worldbody><body name='dog' pos='0 0 1'><freejoint/><geom size='.1'/>"
+    "<body name='leg' pos='.2 0 0'><joint name='hip' axis='0 1 0' ref='.2'/><geom pos='0 0 -.3' size='.05'/>"
+    "<body name='foot' pos='0 0 -.3'><joint name='ankle' type='ball' pos='0 0 .02'/><geom size='.05'/></body>"
+    "</body></body></worldbody><keyframe><key name='lie' qpos='0 0 .3 1 0 0 0 .5 1 0 0 0'/>"
+    "<key name='jump' qpos='1 2 3 0 0 0 1 -.4 .8 0 .6 0' qvel='1 2 3 4 5 6 7 8 9 10'/></keyframe></mujoco>";
+
+TEST(Start, AtAKeyframeOfMujoco) {
+    for (const char* name : {"jump", "1"}) {
+        Diagnostics diagnostics;
+        const auto model = at_keyframe(kKeyed, name, diagnostics);
+        ASSERT_TRUE(model);
+        EXPECT_FALSE(diagnostics.has_errors());
+        const RobotState state = initial_state(*model, RobotId(std::size_t{0}));
+        const std::vector<double> q{1, 2, 3, 0, 0, 0, 1, -0.4, 0.8, 0, 0.6, 0};
+        ASSERT_EQ(state.q.size(), q.size());
+        for (std::size_t i = 0; i < q.size(); ++i) EXPECT_NEAR(state.q[i], q[i], 1e-12) << i;
+        // The base turns by half a turn about z: its own axes x and y point backwards. The ball turns by
+        // 73.7 degrees about y; its rates are in the axes of the foot.
+        const std::vector<double> v{-4, -5, 6, 1, 2, 3, 7, 0.28 * 8 + 0.96 * 10, 9, -0.96 * 8 + 0.28 * 10};
+        ASSERT_EQ(state.v.size(), v.size());
+        for (std::size_t i = 0; i < v.size(); ++i) EXPECT_NEAR(state.v[i], v[i], 1e-9) << i;
+    }
+}
+
+TEST(Start, WithoutAKeyframeBodiesStandWhereTheyAre) {
+    Diagnostics diagnostics;
+    const auto model = at_keyframe(kKeyed, "", diagnostics);
+    ASSERT_TRUE(model);
+    const RobotState state = initial_state(*model, RobotId(std::size_t{0}));
+    EXPECT_EQ(state.q[2], 1);
+    EXPECT_NEAR(state.q[7], 0.2, 1e-15);
+    for (const Diagnostic& d : diagnostics.items())
+        if (d.code == "keyframe") EXPECT_NE(d.message.find("lie, jump"), std::string::npos) << d.message;
+}
+
+TEST(Start, AnUnknownKeyframeIsAnErrorThatNamesThoseThatExist) {
+    for (const char* name : {"leap", "2"}) {
+        Diagnostics diagnostics;
+        at_keyframe(kKeyed, name, diagnostics);
+        ASSERT_TRUE(diagnostics.has_errors());
+        bool told = false;
+        for (const Diagnostic& d : diagnostics.items())
+            told |= d.code == "no-keyframe" && d.remedy.find("lie, jump") != std::string::npos;
+        EXPECT_TRUE(told);
+    }
+    Diagnostics diagnostics;
+    at_keyframe("<mujoco><worldbody><body><joint/><geom size='1'/></body></worldbody><keyframe><key qpos='1 "
+                "2'/></keyframe></mujoco>",
+                "0", diagnostics);
+    EXPECT_TRUE(diagnostics.has_errors());
+}
+
 }  // namespace
 }  // namespace roboss
