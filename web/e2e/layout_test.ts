@@ -118,6 +118,32 @@ bench.test("long names in the list are told apart: their ends are seen", async (
     await page.waitForSelector("body[data-ready=true]");
 });
 
+bench.test("names of Simulators are told apart in the table of the cluster: their ends are seen", async (page) => {
+    await page.getByRole("tab", { name: "Cluster" }).click();
+    for (const size of SIZES.slice(0, 3)) {
+        await page.setViewportSize(size);
+        await until("three names", async () => (await page.locator(".member-words .name-tail").count()) === 3);
+        const [tails, cells] = [await boxes(page, ".member-words .name-tail"), await boxes(page, ".members tbody th")];
+        tails.forEach((tail, k) => within([tail], cells[k]));
+    }
+    await page.getByRole("tab", { name: "Robot" }).click();
+    await page.setViewportSize({ width: 1100, height: 640 });
+});
+
+bench.test("titles in the list of commands are whole on a phone", async (page) => {
+    await page.setViewportSize(SIZES[3]);
+    await page.keyboard.press("Control+k");
+    const cut = await page.evaluate(() =>
+        [...document.querySelectorAll<HTMLElement>(".palette-title")]
+            .filter((title) => title.scrollWidth > title.clientWidth + 1)
+            .map((title) => title.textContent),
+    );
+    assert.deepEqual(cut, []);
+    assert.ok((await page.locator(".palette-title").count()) > 20);
+    await page.keyboard.press("Escape");
+    await page.setViewportSize({ width: 1100, height: 640 });
+});
+
 bench.test("a lidar of 720 beams is a fan through which the world is seen", async (page) => {
     const share = await page.evaluate(async () => {
         const { stage, state, director, run } = window.roboss,
