@@ -72,9 +72,11 @@ bench.test("the first steps stand beside the robots: below the side panel, on a 
 });
 
 bench.test("names neither overlap nor are cut, and many are shown", async (page) => {
-    await page.evaluate(() => {
+    // A car that drives on would be out of sight before a slow camera arrives.
+    await page.evaluate(async () => {
         window.roboss.state.colourBy.set("speed");
         window.roboss.state.toggle("names", true);
+        await window.roboss.run.control("pause");
     });
     for (const selected of [null, 3]) {
         await page.evaluate((robot) => {
@@ -88,11 +90,12 @@ bench.test("names neither overlap nor are cut, and many are shown", async (page)
         apart([...tags, ...(await boxes(page, OVER))]);
         within(tags, (await boxes(page, ".view canvas"))[0]);
     }
-    await page.evaluate(() => {
-        const { state } = window.roboss;
+    await page.evaluate(async () => {
+        const { state, run } = window.roboss;
         state.selected.set(null);
         state.colourBy.set("model");
         state.toggle("names", false);
+        await run.control("resume");
     });
 });
 
