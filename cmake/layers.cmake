@@ -61,6 +61,6 @@ function(roboss_layer name)
     roboss_test_options(${target}_test)
     target_link_libraries(${target}_test PRIVATE ${target} roboss_options GTest::gtest_main)
     target_include_directories(${target}_test PRIVATE ${CMAKE_SOURCE_DIR}/tests)  # <support/...>: worlds that tests share
-    gtest_discover_tests(${target}_test TEST_PREFIX ${name}. DISCOVERY_TIMEOUT 60)
+    roboss_discover_tests(${target}_test ${name})
   endif()
 endfunction()

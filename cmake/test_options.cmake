@@ -37,6 +37,13 @@ function(roboss_test_batches target)
   set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
 endfunction()
 
+# The tests of a gtest program, each a test of ctest named PREFIX.Suite.Claim. Of a test with a parameter the name is all
+# that ctest shows: gtest's text of the parameter would make names long, and they would change with the numbers in it.
+function(roboss_discover_tests target prefix)
+  gtest_discover_tests(${target} TEST_PREFIX ${prefix}. NO_PRETTY_VALUES DISCOVERY_TIMEOUT 60)
+  set_property(GLOBAL APPEND PROPERTY ROBOSS_GTEST_PROGRAMS $<TARGET_FILE:${target}>)
+endfunction()
+
 function(roboss_test_options)
   foreach(target ${ARGN})
     target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)

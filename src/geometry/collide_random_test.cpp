@@ -298,7 +298,20 @@ double flatness(const Case& c) {
     return slack;
 }
 
-class EveryPair : public testing::TestWithParam<std::pair<ShapeKind, ShapeKind>> {};
+struct KindPair {
+    ShapeKind first, second;
+
+    std::string name() const {
+        constexpr const char* kNames[] = {"Plane",   "Sphere",    "Box", "Cylinder",
+                                          "Capsule", "Ellipsoid", "Hull"};
+        return std::string(kNames[static_cast<int>(first)]) + kNames[static_cast<int>(second)];
+    }
+};
+void PrintTo(const KindPair& pair, std::ostream* out) {
+    *out << pair.name();
+}
+
+class EveryPair : public testing::TestWithParam<KindPair> {};
 
 bool is_plane_pair(ShapeKind a, ShapeKind b) {
     return a == ShapeKind::kPlane && b == ShapeKind::kPlane;
@@ -486,24 +499,18 @@ TEST_P(EveryPair, DegeneratePlacementsAreCertifiedToo) {
     }
 }
 
-std::vector<std::pair<ShapeKind, ShapeKind>> all_pairs() {
-    std::vector<std::pair<ShapeKind, ShapeKind>> pairs;
+std::vector<KindPair> all_pairs() {
+    std::vector<KindPair> pairs;
     for (ShapeKind a : kKinds) {
         for (ShapeKind b : kKinds) {
-            if (a <= b && !is_plane_pair(a, b)) pairs.emplace_back(a, b);
+            if (a <= b && !is_plane_pair(a, b)) pairs.push_back({a, b});
         }
     }
     return pairs;
 }
 
-const char* name(ShapeKind kind) {
-    constexpr const char* kNames[] = {"Plane", "Sphere", "Box", "Cylinder", "Capsule", "Ellipsoid", "Hull"};
-    return kNames[static_cast<int>(kind)];
-}
-
-INSTANTIATE_TEST_SUITE_P(Collide, EveryPair, testing::ValuesIn(all_pairs()), [](const auto& pair) {
-    return std::string(name(pair.param.first)) + name(pair.param.second);
-});
+INSTANTIATE_TEST_SUITE_P(Collide, EveryPair, testing::ValuesIn(all_pairs()),
+                         [](const auto& pair) { return pair.param.name(); });
 
 }  // namespace
 }  // namespace roboss

@@ -22,6 +22,9 @@ struct Resting {
     Pose X_bottom;
     int points;
 };
+void PrintTo(const Resting& pair, std::ostream* out) {
+    *out << pair.name;
+}
 
 Shape box(double x, double y, double z) {
     return {ShapeKind::kBox, {x, y, z}, 0, 0};

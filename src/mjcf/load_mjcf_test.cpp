@@ -295,6 +295,9 @@ struct BadFile {
     const char* sections;
     const char* code;
 };
+void PrintTo(const BadFile& file, std::ostream* out) {
+    *out << file.claim;
+}
 
 class BadMjcf : public testing::TestWithParam<BadFile> {};
 

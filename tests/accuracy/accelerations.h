@@ -17,6 +17,9 @@ struct Mechanism {
     ModelSpec model;
     double spread = 0.3;  // of the random coordinates before the loops are closed
 };
+inline void PrintTo(const Mechanism& mechanism, std::ostream* out) {
+    *out << mechanism.name;
+}
 
 /// Eight trees of every joint kind that MuJoCo has.
 std::vector<Mechanism> trees();

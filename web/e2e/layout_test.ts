@@ -72,9 +72,11 @@ bench.test("the first steps stand beside the robots: below the side panel, on a 
 });
 
 bench.test("names neither overlap nor are cut, and many are shown", async (page) => {
-    await page.evaluate(() => {
+    // A car that drives on would be out of sight before a slow camera arrives.
+    await page.evaluate(async () => {
         window.roboss.state.colourBy.set("speed");
         window.roboss.state.toggle("names", true);
+        await window.roboss.run.control("pause");
     });
     for (const selected of [null, 3]) {
         await page.evaluate((robot) => {
@@ -88,11 +90,12 @@ bench.test("names neither overlap nor are cut, and many are shown", async (page)
         apart([...tags, ...(await boxes(page, OVER))]);
         within(tags, (await boxes(page, ".view canvas"))[0]);
     }
-    await page.evaluate(() => {
-        const { state } = window.roboss;
+    await page.evaluate(async () => {
+        const { state, run } = window.roboss;
         state.selected.set(null);
         state.colourBy.set("model");
         state.toggle("names", false);
+        await run.control("resume");
     });
 });
 
@@ -116,6 +119,32 @@ bench.test("long names in the list are told apart: their ends are seen", async (
     await page.setViewportSize({ width: 1100, height: 640 });
     await page.reload();
     await page.waitForSelector("body[data-ready=true]");
+});
+
+bench.test("names of Simulators are told apart in the table of the cluster: their ends are seen", async (page) => {
+    await page.getByRole("tab", { name: "Cluster" }).click();
+    for (const size of SIZES.slice(0, 3)) {
+        await page.setViewportSize(size);
+        await until("three names", async () => (await page.locator(".member-words .name-tail").count()) === 3);
+        const [tails, cells] = [await boxes(page, ".member-words .name-tail"), await boxes(page, ".members tbody th")];
+        tails.forEach((tail, k) => within([tail], cells[k]));
+    }
+    await page.getByRole("tab", { name: "Robot" }).click();
+    await page.setViewportSize({ width: 1100, height: 640 });
+});
+
+bench.test("titles in the list of commands are whole on a phone", async (page) => {
+    await page.setViewportSize(SIZES[3]);
+    await page.keyboard.press("Control+k");
+    const cut = await page.evaluate(() =>
+        [...document.querySelectorAll<HTMLElement>(".palette-title")]
+            .filter((title) => title.scrollWidth > title.clientWidth + 1)
+            .map((title) => title.textContent),
+    );
+    assert.deepEqual(cut, []);
+    assert.ok((await page.locator(".palette-title").count()) > 20);
+    await page.keyboard.press("Escape");
+    await page.setViewportSize({ width: 1100, height: 640 });
 });
 
 bench.test("a lidar of 720 beams is a fan through which the world is seen", async (page) => {

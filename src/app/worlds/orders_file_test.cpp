@@ -230,6 +230,9 @@ struct BadLine {
     const char* line;
     const char* names;  // the key or value of the line that the message must name; empty: the whole line
 };
+void PrintTo(const BadLine& bad, std::ostream* out) {
+    *out << bad.line;
+}
 
 class BadOrder : public testing::TestWithParam<BadLine> {};
 

@@ -4,7 +4,7 @@ import uPlot from "uplot";
 import type { RunLink } from "../model/run_link";
 import type { ViewerState } from "../model/viewer_state";
 import { confirmed } from "../ui/confirm";
-import { h, setText } from "../ui/dom";
+import { cutInside, h, setText } from "../ui/dom";
 import { byteRate, fixed, percent, short } from "../ui/numbers";
 import type { MemberStatus, MessageRate, Status } from "../wire/messages";
 import { groupCss } from "../view/palette";
@@ -58,10 +58,7 @@ export class ClusterPanel {
     readonly element: HTMLElement;
     private readonly facts = new Map<string, HTMLElement>();
     private readonly table = h("tbody");
-    private readonly rows = new Map<
-        number,
-        { row: HTMLTableRowElement; cells: HTMLElement[]; bar: HTMLElement; kill: HTMLButtonElement }
-    >();
+    private readonly rows = new Map<number, ReturnType<ClusterPanel["addRow"]>>();
     private readonly history = new StepTimes();
     private readonly noKill = h(
         "p",
@@ -180,8 +177,9 @@ export class ClusterPanel {
         this.noKill.hidden = members.some((member) => member.own_process === true);
         for (const member of members) {
             const shown = this.rows.get(member.id) ?? this.addRow(member.id);
+            const name = member.name === "" ? `Simulator ${member.id}` : member.name;
+            if (shown.words.textContent !== name) shown.words.replaceChildren(...cutInside(name));
             const texts = [
-                member.name === "" ? `Simulator ${member.id}` : member.name,
                 short(member.robots),
                 short(member.islands),
                 percent(member.load),
@@ -193,17 +191,19 @@ export class ClusterPanel {
             shown.row.dataset.state = member.state;
             shown.kill.hidden = member.own_process !== true || !present(member);
             const threads = `${member.threads} ${member.threads === 1 ? "thread" : "threads"}`;
-            shown.row.title = `${member.name}: ${member.state}, ${threads}\n${told(member.messages)}`;
+            shown.row.title = `${name}: ${member.state}, ${threads}\n${told(member.messages)}`;
         }
     }
 
-    private addRow(id: number): {
-        row: HTMLTableRowElement;
-        cells: HTMLElement[];
-        bar: HTMLElement;
-        kill: HTMLButtonElement;
-    } {
-        const cells = Array.from({ length: 6 }, () => h("span", {})),
+    private addRow(id: number) {
+        const words = h("span", { class: "member-words" }),
+            name = h(
+                "div",
+                { class: "member-name" },
+                h("span", { class: "swatch", style: `background:${groupCss(id)}` }),
+                words,
+            ),
+            cells = Array.from({ length: 5 }, () => h("span", {})),
             bar = h("div", { class: "load-fill" });
         const kill = h(
             "button",
@@ -219,15 +219,15 @@ export class ClusterPanel {
         const row = h(
             "tr",
             {},
-            h("th", { scope: "row" }, h("span", { class: "swatch", style: `background:${groupCss(id)}` }), cells[0]),
+            h("th", { scope: "row" }, name),
+            h("td", {}, cells[0]),
             h("td", {}, cells[1]),
-            h("td", {}, cells[2]),
-            h("td", { class: "load" }, h("div", { class: "load-bar", "aria-hidden": "true" }, bar), cells[3]),
+            h("td", { class: "load" }, h("div", { class: "load-bar", "aria-hidden": "true" }, bar), cells[2]),
+            h("td", {}, cells[3]),
             h("td", {}, cells[4]),
-            h("td", {}, cells[5]),
             h("td", {}, kill),
         );
-        const made = { row, cells, bar, kill };
+        const made = { row, words, cells, bar, kill };
         this.rows.set(id, made);
         this.table.append(row);
         return made;

@@ -11,7 +11,7 @@ import type { BookmarkInfo } from "../wire/timeline";
 const REST_MS = 140;
 const STILL_PX = 2;
 const STEPS = 100_000;
-const PIXELS_A_MARK = 84;
+const PIXELS_A_MARK = 56;
 /** Width of the slider's thumb, as --thumb of the style: half of it at each end is no time. */
 export const THUMB_PX = COARSE ? 24 : 13;
 

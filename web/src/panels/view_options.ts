@@ -5,23 +5,23 @@ import { LINKS_MAX } from "../overlays/link_marks";
 import { h } from "../ui/dom";
 
 export const COLOURS: [ColourBy, string, string][] = [
-    ["model", "Model", "As the world file says"],
-    ["simulator", "Simulator", "Who steps it"],
-    ["island", "Island", "Robots that may touch share one"],
-    ["speed", "Speed", "Blue at rest, amber from 3 m/s on"],
+    ["model", "Model", "as the world file says"],
+    ["simulator", "Simulator", "the one that steps the robot"],
+    ["island", "Island", "robots that may touch have one colour"],
+    ["speed", "Speed", "blue at rest, amber from 3 m/s on"],
 ];
 export const WORDS: Record<Overlay, [string, string]> = {
     rays: ["Laser rays", `of the selected robot; at most ${RAYS_MAX} rays and ${HITS_MAX} points a sensor`],
     points: ["Point clouds", "what lidars, depth and RGB-D cameras of the selected robot measure"],
-    tracks: ["Tracks", "where robots drove; the selected one: GPS, odometer"],
+    tracks: ["Tracks", "where robots drove; also by GPS and odometer of the selected one"],
     compass: ["Compass", "north and heading of the selected robot"],
     contacts: ["Contact forces", "arrows, 1 m for 100 N"],
     radio: ["Radio links", "messages received: green 30 dB above the noise floor, red at it; rings: sent"],
-    bounds: ["Swept boxes", "what the forecast keeps free"],
+    bounds: ["Swept boxes", "the space that a robot may need in the next window"],
     spheres: ["Bounding spheres", "the reach of each robot"],
     islands: ["Islands", "hulls round robots that may touch"],
     names: ["Names", "of the robots nearest to the camera"],
-    collisions: ["Collision shapes", "what physics sees"],
+    collisions: ["Collision shapes", "those that touch, instead of the look"],
     frames: ["Link frames", "x red, y green, z blue"],
     masses: ["Centres of mass", "of links"],
     inertia: ["Inertia", "boxes of equal mass and inertia"],
