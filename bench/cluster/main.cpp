@@ -7,8 +7,8 @@
 #include <fstream>
 
 #include "cluster/crowd.h"
-#include "cluster/network_costs.h"
 #include "cluster/measure.h"
+#include "cluster/network_costs.h"
 
 namespace {
 
@@ -44,7 +44,8 @@ void add_options(CLI::App& app, BenchOptions& w) {
     app.add_flag("!--no-work-stealing", w.settings.work_stealing,
                  "idle Simulators do not take over work of stragglers");
     app.add_option("--lanes", w.settings.lanes, "robots stepped at once")->capture_default_str();
-    app.add_option("--send-us", w.send_us, "CPU time of sending a message (default: measured over Fast DDS)");
+    app.add_option("--send-us", w.send_us,
+                   "CPU time of sending a message (default: measured over TLS on loopback)");
     app.add_option("--way-us", w.way_us, "its time on the way (default: measured)");
     app.add_option("--json", w.json, "rows as JSON");
 }

@@ -10,8 +10,8 @@
 #include <thread>
 
 #include "core/thread_cpu.h"
-#include "net/stream_bus.h"
 #include "median.h"
+#include "net/stream_bus.h"
 
 namespace roboss::bench {
 namespace {

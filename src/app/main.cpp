@@ -36,7 +36,8 @@ void group_commands(CLI::App& app) {
         {"Drive real robots", {"device"}},
         {"Control and keep a run", {"control", "runs", "save", "replay", "journal", "diff"}},
         {"Look into a run", {"record", "plot", "analyse", "calibrate"}},
-        {"Members of a run on several computers", {"controller", "simulator", "client", "view", "cluster", "keys"}}};
+        {"Members of a run on several computers",
+         {"controller", "simulator", "client", "view", "cluster", "keys"}}};
     for (const auto& [group, commands] : groups)
         for (const char* command : commands) app.get_subcommand(command)->group(group);
 }

@@ -13,7 +13,7 @@ namespace {
 using namespace openssl;
 
 constexpr std::array<const char*, 4> kSeats{"controller", "simulator", "client", "member"};
-constexpr long kClockSkew_s = 300;  // clocks of two computers may differ by so much
+constexpr long kClockSkew_s = 300;     // clocks of two computers may differ by so much
 constexpr std::size_t kNameMost = 64;  // of a common name in X.509
 
 using Number = Owned<BIGNUM, BN_free>;
@@ -137,7 +137,8 @@ const char* seat_name(Seat seat) {
 Result<Seat> seat_of(const std::string& name) {
     for (std::size_t i = 0; i < kSeats.size(); ++i)
         if (name == kSeats[i]) return static_cast<Seat>(i);
-    return Error{"there is no role '" + name + "'", "give controller, simulator, client or member", "bad-role"};
+    return Error{"there is no role '" + name + "'", "give controller, simulator, client or member",
+                 "bad-role"};
 }
 
 Result<KeyPair> new_authority(const std::string& name, int days) {

@@ -1,5 +1,5 @@
-// Keys and certificates of a run (X.509, elliptic curve P-256, as PEM text): an authority, and what it signs for
-// each member. A certificate says who its holder is and in which role it may take part.
+// Keys and certificates of a run (X.509, elliptic curve P-256, as PEM text): an authority, and what it signs
+// for each member. A certificate says who its holder is and in which role it may take part.
 #pragma once
 
 #include <cstdint>
@@ -38,8 +38,8 @@ struct Holder {
 /// A new authority, which signs itself. An Error: the system gives no random numbers.
 Result<KeyPair> new_authority(const std::string& name, int days);
 
-/// A key for this holder, and its certificate, signed by the authority. An Error: the authority's texts are no
-/// certificate and key, or the name is empty or longer than 64 bytes.
+/// A key for this holder, and its certificate, signed by the authority. An Error: the authority's texts are
+/// no certificate and key, or the name is empty or longer than 64 bytes.
 Result<KeyPair> new_certificate(const KeyPair& authority, const Holder& holder, int days);
 
 /// Whom a certificate (PEM) names. An Error: the text is none of ours.

@@ -48,9 +48,10 @@ struct Connection::Socket {
     Tcp::socket stream;
 };
 
-std::shared_ptr<Connection> Connection::open(asio::io_context& context, int socket, std::unique_ptr<TlsSession> session,
-                                 Events events) {
-    const std::shared_ptr<Connection> connection(new Connection(context, socket, std::move(session), std::move(events)));
+std::shared_ptr<Connection> Connection::open(asio::io_context& context, int socket,
+                                             std::unique_ptr<TlsSession> session, Events events) {
+    const std::shared_ptr<Connection> connection(
+        new Connection(context, socket, std::move(session), std::move(events)));
     asio::post(context, [connection] {
         connection->receive({});  // without a session, the other end can be judged now
         connection->read();
@@ -58,7 +59,8 @@ std::shared_ptr<Connection> Connection::open(asio::io_context& context, int sock
     return connection;
 }
 
-Connection::Connection(asio::io_context& context, int socket, std::unique_ptr<TlsSession> session, Events events)
+Connection::Connection(asio::io_context& context, int socket, std::unique_ptr<TlsSession> session,
+                       Events events)
     : socket_(std::make_unique<Socket>(Socket{context, Tcp::socket(context, Tcp::v4(), socket)})),
       events_(std::move(events)),
       where_(name_of(socket_->stream)),
@@ -125,7 +127,9 @@ bool Connection::take(const Frame& frame) {
             joined_.insert(joined_.end(), frame.content.begin(), frame.content.end());
             if (frame.kind == FrameKind::kLast) events_.message(*this, std::exchange(joined_, {}));
             return true;
-        default: events_.frame(*this, frame); return true;
+        default:
+            events_.frame(*this, frame);
+            return true;
     }
 }
 
@@ -189,8 +193,8 @@ std::string Connection::pump_locked() {
     const int socket = socket_->stream.native_handle();
     for (std::size_t sent = 0; sent < kWriteAtOnce;) {
         if (wire_at_ == wire_.size() && !fill_locked(failure)) return failure;
-        const ssize_t bytes = ::send(socket, wire_.data() + wire_at_, wire_.size() - wire_at_,
-                                     MSG_NOSIGNAL | MSG_DONTWAIT);
+        const ssize_t bytes =
+            ::send(socket, wire_.data() + wire_at_, wire_.size() - wire_at_, MSG_NOSIGNAL | MSG_DONTWAIT);
         if (bytes < 0 && errno == EINTR) continue;
         if (bytes < 0 && errno != EAGAIN && errno != EWOULDBLOCK) return std::strerror(errno);
         if (bytes < 0) break;
@@ -243,7 +247,8 @@ void Connection::add_pieces_locked() {
         const std::span<const std::uint8_t> rest = std::span(first.bytes).subspan(first.at);
         const std::span<const std::uint8_t> piece = rest.first(std::min(rest.size(), kFrameMost));
         const bool is_last = piece.size() == rest.size();
-        append_frame(plain_, first.at > 0 || !is_last ? (is_last ? FrameKind::kLast : FrameKind::kPiece) : first.kind,
+        append_frame(plain_,
+                     first.at > 0 || !is_last ? (is_last ? FrameKind::kLast : FrameKind::kPiece) : first.kind,
                      piece);
         first.at += piece.size();
         if (is_last) done(waiting_);

@@ -1,5 +1,6 @@
-// Connection: one connection to another process of the run. It encrypts, cuts messages into frames and joins them, and
-// sends as much as the network takes; the rest waits here. Short messages overtake the pieces of long ones.
+// Connection: one connection to another process of the run. It encrypts, cuts messages into frames and joins
+// them, and sends as much as the network takes; the rest waits here. Short messages overtake the pieces of
+// long ones.
 #pragma once
 
 #include <atomic>
@@ -37,7 +38,7 @@ class Connection : public std::enable_shared_from_this<Connection> {
 
     /// Takes over a connected socket. Without a session nothing is encrypted.
     static std::shared_ptr<Connection> open(boost::asio::io_context& context, int socket,
-                                      std::unique_ptr<TlsSession> session, Events events);
+                                            std::unique_ptr<TlsSession> session, Events events);
     ~Connection();
 
     /// Any thread. False: it has ended, or more than `kWaitingMost` bytes wait already.
@@ -79,7 +80,8 @@ class Connection : public std::enable_shared_from_this<Connection> {
         FrameKind kind{};  // kWhole: may be cut into pieces
     };
 
-    Connection(boost::asio::io_context& context, int socket, std::unique_ptr<TlsSession> session, Events events);
+    Connection(boost::asio::io_context& context, int socket, std::unique_ptr<TlsSession> session,
+               Events events);
     void read();
     void receive(std::span<const std::uint8_t> data);
     bool take(const Frame& frame);

@@ -1,5 +1,5 @@
-// How messages are cut into frames of a stream: a length (four bytes, little-endian), a kind (one byte), and the
-// content. A long message is sent in pieces, so that a short one need not wait for it.
+// How messages are cut into frames of a stream: a length (four bytes, little-endian), a kind (one byte), and
+// the content. A long message is sent in pieces, so that a short one need not wait for it.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
-// Keys as files: authority.crt, member.crt and member.key, and `revoked`, a line for each certificate that is not
-// accepted any more: its serial, then anything. All are readable by their owner alone.
+// Keys as files: authority.crt, member.crt and member.key, and `revoked`, a line for each certificate that is
+// not accepted any more: its serial, then anything. All are readable by their owner alone.
 #pragma once
 
 #include <filesystem>

@@ -15,7 +15,8 @@ namespace roboss {
 
 class KeyRing {
   public:
-    /// Opens one, or makes it with a new authority. An Error: the folder holds other things, or cannot be written.
+    /// Opens one, or makes it with a new authority. An Error: the folder holds other things, or cannot be
+    /// written.
     static Result<KeyRing> open(const std::filesystem::path& folder);
 
     /// Makes a key for a holder. An Error [key-exists]: the name has one already.

@@ -59,8 +59,9 @@ Result<fs::path> run_folder() {
     std::error_code error;
     const char* runtime = std::getenv("XDG_RUNTIME_DIR");
     const bool has_runtime = runtime != nullptr && fs::is_directory(runtime, error);
-    const fs::path folder = has_runtime ? fs::path(runtime) / "roboss"
-                                        : fs::temp_directory_path(error) / ("roboss-" + std::to_string(getuid()));
+    const fs::path folder = has_runtime
+                                ? fs::path(runtime) / "roboss"
+                                : fs::temp_directory_path(error) / ("roboss-" + std::to_string(getuid()));
     ::mkdir(folder.c_str(), 0700);
     struct stat found {};
     if (::lstat(folder.c_str(), &found) != 0 || !S_ISDIR(found.st_mode) || found.st_uid != getuid() ||

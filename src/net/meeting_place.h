@@ -1,5 +1,5 @@
-// How members of one computer and user find their Controller by the name of the run: it leaves its address, and
-// keys for them, in a private folder.
+// How members of one computer and user find their Controller by the name of the run: it leaves its address,
+// and keys for them, in a private folder.
 #pragma once
 
 #include <filesystem>
@@ -12,7 +12,8 @@
 namespace roboss {
 
 /// The private folder in which runs of this computer and user list themselves: $XDG_RUNTIME_DIR/roboss, else
-/// roboss-UID in the folder for temporary files. Created if it is missing. An Error if others could write there.
+/// roboss-UID in the folder for temporary files. Created if it is missing. An Error if others could write
+/// there.
 Result<std::filesystem::path> run_folder();
 
 /// A Controller's note for members. Removed when it is destroyed.

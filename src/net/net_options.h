@@ -1,5 +1,5 @@
-// Where the Controller of a run listens, and how members reach it. The defaults reach processes of this computer
-// and user only.
+// Where the Controller of a run listens, and how members reach it. The defaults reach processes of this
+// computer and user only.
 #pragma once
 
 #include <cstdint>
@@ -23,8 +23,8 @@ struct NetOptions {
     std::uint16_t port = 0;
     /// Of a member: HOST or HOST:PORT of the Controller. Empty: the Controller of this name on this computer.
     std::string controller{};
-    /// Folder of this process' certificate and key (net/key_folder.h). Empty: the Controller makes keys for this
-    /// run, and members of the same computer and user find them.
+    /// Folder of this process' certificate and key (net/key_folder.h). Empty: the Controller makes keys for
+    /// this run, and members of the same computer and user find them.
     std::string keys{};
     /// Neither encryption nor certificates: everybody who reaches the port can take part, read and change.
     bool insecure = false;

@@ -59,7 +59,8 @@ Result<HostPort> host_port(const std::string& text) {
     hints.ai_family = AF_INET;
     addrinfo* found = nullptr;
     if (host.empty() || getaddrinfo(host.c_str(), nullptr, &hints, &found) != 0 || found == nullptr)
-        return Error{"there is no computer called '" + host + "'", "give its name or IPv4 address", "no-host"};
+        return Error{"there is no computer called '" + host + "'", "give its name or IPv4 address",
+                     "no-host"};
     const std::unique_ptr<addrinfo, decltype(&freeaddrinfo)> owner(found, &freeaddrinfo);
     result.address = text_of(found->ai_addr);
     return result;

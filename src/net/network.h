@@ -8,8 +8,8 @@
 
 namespace roboss {
 
-/// The IPv4 address of an interface of this computer, named "eth0" or "192.0.2.7"; "0.0.0.0" is that of all. An
-/// Error lists what there is.
+/// The IPv4 address of an interface of this computer, named "eth0" or "192.0.2.7"; "0.0.0.0" is that of all.
+/// An Error lists what there is.
 Result<std::string> interface_address(const std::string& name);
 
 struct HostPort {

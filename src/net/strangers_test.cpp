@@ -1,5 +1,5 @@
-// Who may not take part is refused with the reason, on both sides; who misbehaves is cut off, and the run is not
-// disturbed.
+// Who may not take part is refused with the reason, on both sides; who misbehaves is cut off, and the run is
+// not disturbed.
 #include <arpa/inet.h>
 #include <gtest/gtest.h>
 #include <netinet/in.h>
@@ -7,10 +7,10 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <support/loopback_bus.h>
 #include <filesystem>
 #include <fstream>
 #include <random>
-#include <support/loopback_bus.h>
 
 #include "net/frames.h"
 #include "net/key_ring.h"
@@ -30,9 +30,12 @@ class Keys {
         EXPECT_NE(mkdtemp(folder_.data()), nullptr);
     }
     ~Keys() { std::filesystem::remove_all(folder_); }
-    KeyRing ring(const std::string& name = "ring") const { return KeyRing::open(folder_ + "/" + name).value(); }
+    KeyRing ring(const std::string& name = "ring") const {
+        return KeyRing::open(folder_ + "/" + name).value();
+    }
     /// The folder of a key, made on first use.
-    std::string of(const std::string& name, Seat seat, const std::string& ring_name = "ring", int days = 1) const {
+    std::string of(const std::string& name, Seat seat, const std::string& ring_name = "ring",
+                   int days = 1) const {
         KeyRing keys = ring(ring_name);
         if (!keys.has(name)) {
             const Result<> added = keys.add(name, seat, days);
@@ -57,7 +60,8 @@ std::string all_of(const std::vector<std::string>& lines) {
 }
 
 /// The member is refused with this code, for a reason that has these words, and the Controller names it.
-void expect_refused(StreamBus& controller, StreamBus& member, const std::string& code, const std::string& words) {
+void expect_refused(StreamBus& controller, StreamBus& member, const std::string& code,
+                    const std::string& words) {
     ASSERT_TRUE(becomes([&] { return member.refusal().has_value(); })) << all_of(member.take_notices());
     EXPECT_EQ(member.refusal()->code, code);
     EXPECT_NE(member.refusal()->message.find(words), std::string::npos) << member.refusal()->message;
@@ -73,7 +77,8 @@ TEST(Strangers, MembersWithKeysOfTheRunTakePart) {
     const NetOptions options = loopback("keys");
     const auto controller = controller_of(with_keys(options, keys.of("boss", Seat::kController)));
     const auto member = member_of(with_keys(options, keys.of("sim-1", Seat::kSimulator)), kOne);
-    ASSERT_TRUE(becomes([&] { return member->present(kControllerAddress); })) << all_of(member->take_notices());
+    ASSERT_TRUE(becomes([&] { return member->present(kControllerAddress); }))
+        << all_of(member->take_notices());
     member->send(kOne, kControllerAddress, Expelled{});
     EXPECT_EQ(receive(*controller, kControllerAddress, 1).size(), 1u);
 }
@@ -185,7 +190,8 @@ TEST(Strangers, AMemberOfAnotherRunIsToldSo) {
     other.keys = keys.string();
     other.simulation += "-not";
     const auto member = member_of(other, kOne);
-    expect_refused(*controller, *member, "other-simulation", "looks for simulation '" + other.simulation + "'");
+    expect_refused(*controller, *member, "other-simulation",
+                   "looks for simulation '" + other.simulation + "'");
 }
 
 /// A plain connection to a Controller.
@@ -225,7 +231,8 @@ TEST(Strangers, RandomBytesDisturbNoRun) {
             if (i % 3 == 2) append_frame(bytes, FrameKind::kWhole, message);
             for (int k = 0; k < 3 && !bytes.empty(); ++k)  // a byte of a right beginning is another one
                 bytes[random() % bytes.size()] = static_cast<std::uint8_t>(random());
-            for (std::size_t n = random() % 300; n > 0; --n) bytes.push_back(static_cast<std::uint8_t>(random()));
+            for (std::size_t n = random() % 300; n > 0; --n)
+                bytes.push_back(static_cast<std::uint8_t>(random()));
             caller.send(bytes);
             if (i % 20 == 0) usleep(1'000);
         }
@@ -238,7 +245,8 @@ TEST(Strangers, RandomBytesDisturbNoRun) {
             controller->drain(kControllerAddress, inbox);
             for (const Envelope& e : inbox) heard = heard || e.from == kOne;
             return heard;
-        })) << "insecure: " << insecure;
+        })) << "insecure: "
+            << insecure;
     }
 }
 

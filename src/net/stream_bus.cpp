@@ -1,10 +1,10 @@
-// Messages to bytes and back; mailboxes here, connections in exchange.h.
+// Messages to bytes and back; mailboxes here, connections in switchboard.h.
 #include "net/stream_bus.h"
 
 #include <algorithm>
 
-#include "net/exchange.h"
 #include "net/mailboxes.h"
+#include "net/switchboard.h"
 #include "wire/codec.h"
 
 namespace roboss {
@@ -12,15 +12,15 @@ namespace roboss {
 class StreamBus::Network {
   public:
     Mailboxes mailboxes;
-    std::unique_ptr<Exchange> exchange;  // the last: its thread fills the mailboxes
+    std::unique_ptr<Switchboard> switchboard;  // the last: its thread fills the mailboxes
 
     static Result<std::unique_ptr<Network>> open(const NetOptions& options,
-                                                 std::optional<Exchange::Member> member) {
+                                                 std::optional<Switchboard::Member> member) {
         auto network = std::make_unique<Network>();
-        Result<std::unique_ptr<Exchange>> exchange =
-            Exchange::open(options, std::move(member), network->mailboxes);
-        if (!exchange) return exchange.error();
-        network->exchange = std::move(exchange).value();
+        Result<std::unique_ptr<Switchboard>> switchboard =
+            Switchboard::open(options, std::move(member), network->mailboxes);
+        if (!switchboard) return switchboard.error();
+        network->switchboard = std::move(switchboard).value();
         return network;
     }
 };
@@ -36,7 +36,7 @@ Result<std::unique_ptr<StreamBus>> StreamBus::listen(const NetOptions& options) 
 
 Result<std::unique_ptr<StreamBus>> StreamBus::join(const NetOptions& options, const std::string& role,
                                                    const std::string& name) {
-    Result<std::unique_ptr<Network>> network = Network::open(options, Exchange::Member{role, name});
+    Result<std::unique_ptr<Network>> network = Network::open(options, Switchboard::Member{role, name});
     if (!network) return network.error();
     return std::unique_ptr<StreamBus>(new StreamBus(std::move(network).value()));
 }
@@ -47,13 +47,13 @@ void StreamBus::send(const Address& from, const Address& to, Message message) {
     const bool urgent = std::holds_alternative<Heartbeat>(envelope.message);
     std::vector<std::uint8_t> bytes = encode(envelope);
     network_->mailboxes.count(from, to, bytes.size());
-    network_->exchange->note_own(from, to);
-    network_->exchange->send(to, std::move(bytes), urgent);
+    network_->switchboard->note_own(from, to);
+    network_->switchboard->send(to, std::move(bytes), urgent);
 }
 
 void StreamBus::drain(const Address& self, std::vector<Envelope>& inbox) {
     network_->mailboxes.drain(self, inbox);
-    if (!inbox.empty()) network_->exchange->resume();
+    if (!inbox.empty()) network_->switchboard->resume();
 }
 
 std::vector<Address> StreamBus::take_vanished(const Address& self) {
@@ -66,11 +66,11 @@ void StreamBus::wait(std::int64_t ms_max) {
 
 void StreamBus::keep_alive(const Address& from, const Address& to, const Heartbeat& heartbeat) {
     if (network_->mailboxes.has(to)) return;  // in this process, so in the same thread
-    network_->exchange->begin_beat(from, to, encode(Envelope{from, to, heartbeat}));
+    network_->switchboard->begin_beat(from, to, encode(Envelope{from, to, heartbeat}));
 }
 
 void StreamBus::end_keep_alive(const Address& from) {
-    network_->exchange->end_beat(from);
+    network_->switchboard->end_beat(from);
 }
 
 std::vector<Flow> StreamBus::flows() const {
@@ -78,7 +78,7 @@ std::vector<Flow> StreamBus::flows() const {
 }
 
 bool StreamBus::present(const Address& address) const {
-    return network_->mailboxes.has(address) || network_->exchange->reaches(address);
+    return network_->mailboxes.has(address) || network_->switchboard->reaches(address);
 }
 
 std::optional<std::int64_t> StreamBus::heard_ms(const Address& address) const {
@@ -86,12 +86,12 @@ std::optional<std::int64_t> StreamBus::heard_ms(const Address& address) const {
 }
 
 std::optional<Error> StreamBus::refusal() const {
-    return network_->exchange->refusal();
+    return network_->switchboard->refusal();
 }
 
 bool StreamBus::flush(std::int64_t ms_max) {
     const std::int64_t end = now_ms() + ms_max;
-    while (!network_->exchange->all_sent()) {
+    while (!network_->switchboard->all_sent()) {
         if (now_ms() >= end) return false;
         network_->mailboxes.wait(2);
     }
@@ -99,11 +99,11 @@ bool StreamBus::flush(std::int64_t ms_max) {
 }
 
 std::vector<std::string> StreamBus::take_notices() {
-    return network_->exchange->take_notices();
+    return network_->switchboard->take_notices();
 }
 
 std::string StreamBus::where() const {
-    return network_->exchange->where();
+    return network_->switchboard->where();
 }
 
 std::string describe(const NetOptions& options) {

@@ -1,6 +1,6 @@
-// StreamBus: the Bus between the processes and machines of one run, over TCP connections that are encrypted with
-// TLS 1.3 and certificates on both sides. The Controller's process listens; every member has one connection to it,
-// over which it also reaches the other members (decision 0042).
+// StreamBus: the Bus between the processes and machines of one run, over TCP connections that are encrypted
+// with TLS 1.3 and certificates on both sides. The Controller's process listens; every member has one
+// connection to it, over which it also reaches the other members (decision 0042).
 #pragma once
 
 #include <memory>
@@ -16,11 +16,11 @@ namespace roboss {
 
 class StreamBus : public Bus {
   public:
-    /// The Controller's process. An Error says which option does not fit this computer, that the port is taken,
-    /// or that a Controller of this name is running here.
+    /// The Controller's process. An Error says which option does not fit this computer, that the port is
+    /// taken, or that a Controller of this name is running here.
     static Result<std::unique_ptr<StreamBus>> listen(const NetOptions& options);
-    /// A member: it connects in the background, and again whenever the connection is lost. `role`: "simulator"
-    /// or "client"; `name`: where it runs, for reports. An Error: keys or options are wrong.
+    /// A member: it connects in the background, and again whenever the connection is lost. `role`:
+    /// "simulator" or "client"; `name`: where it runs, for reports. An Error: keys or options are wrong.
     static Result<std::unique_ptr<StreamBus>> join(const NetOptions& options, const std::string& role,
                                                    const std::string& name);
     ~StreamBus() override;
@@ -42,8 +42,8 @@ class StreamBus : public Bus {
     std::optional<std::int64_t> heard_ms(const Address& address) const;
     /// Of a member: why the Controller does not take it. It tries no more.
     std::optional<Error> refusal() const;
-    /// Waits until the other computers have received all that was sent, at most so long. To be called before a
-    /// process ends.
+    /// Waits until the other computers have received all that was sent, at most so long. To be called before
+    /// a process ends.
     bool flush(std::int64_t ms_max);
     /// Connections lost and made again, refused and misbehaving peers: one line each, for the log.
     std::vector<std::string> take_notices();

@@ -1,11 +1,11 @@
-// The Bus over real connections on the loopback interface: what is said arrives, however long; who dies is missed;
-// members reach each other; runs side by side never mix.
+// The Bus over real connections on the loopback interface: what is said arrives, however long; who dies is
+// missed; members reach each other; runs side by side never mix.
 #include "net/stream_bus.h"
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <support/loopback_bus.h>
+#include <algorithm>
 
 namespace roboss {
 namespace {
@@ -76,7 +76,8 @@ TEST(StreamBus, TheControllerReachesAMemberThatHasSentNothing) {
 
 TEST(StreamBus, MembersReachEachOtherAndClientsInTheControllersProcess) {
     const NetOptions options = loopback("star");
-    const auto controller = controller_of(options), a = member_of(options, kOne), b = member_of(options, kTwo);
+    const auto controller = controller_of(options), a = member_of(options, kOne),
+               b = member_of(options, kTwo);
     const Address client{Role::kClient, 3};
     std::vector<Envelope> inbox;
     controller->drain(client, inbox);
@@ -148,7 +149,8 @@ TEST(StreamBus, AControllersNameIsTakenWhileItLives) {
 TEST(StreamBus, APortThatIsTakenIsNamed) {
     NetOptions options = loopback("port");
     const auto first = controller_of(options);
-    options.port = static_cast<std::uint16_t>(std::stoi(first->where().substr(first->where().rfind(':') + 1)));
+    options.port =
+        static_cast<std::uint16_t>(std::stoi(first->where().substr(first->where().rfind(':') + 1)));
     options.simulation += "-other";
     const auto second = StreamBus::listen(options);
     ASSERT_FALSE(second.ok());

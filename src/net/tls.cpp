@@ -31,7 +31,8 @@ int accept_for_now(int, X509_STORE_CTX*) {
 /// Complete sentences for what people meet; OpenSSL's words for the rest.
 std::string words_for(long result, const std::string& who) {
     switch (result) {
-        case X509_V_ERR_CERT_HAS_EXPIRED: return "the certificate of " + who + " has expired";
+        case X509_V_ERR_CERT_HAS_EXPIRED:
+            return "the certificate of " + who + " has expired";
         case X509_V_ERR_CERT_NOT_YET_VALID:
             return "the certificate of " + who + " is not valid yet (check the clocks)";
         case X509_V_ERR_DEPTH_ZERO_SELF_SIGNED_CERT:
@@ -149,7 +150,8 @@ bool TlsSession::send(std::span<const std::uint8_t> plain) {
     if (!failure_.empty() || !established_) return false;
     ERR_clear_error();
     std::size_t written = 0;
-    if (plain.empty() || SSL_write_ex(parts_->ssl.get(), plain.data(), plain.size(), &written) == 1) return true;
+    if (plain.empty() || SSL_write_ex(parts_->ssl.get(), plain.data(), plain.size(), &written) == 1)
+        return true;
     failure_ = "TLS: " + take_error();
     return false;
 }

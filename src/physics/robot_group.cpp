@@ -186,7 +186,8 @@ LaneMember RobotGroup::lane_member(std::uint32_t robot) const {
     // As digits of a number, how often each shape touches.
     constexpr unsigned kBits = 3, kDigits = 21;
     std::uint64_t touch = 0;
-    for (const Contact& c : contacts) touch += std::uint64_t{1} << kBits * (kDigits - 1 - c.shape_a % kDigits);
+    for (const Contact& c : contacts)
+        touch += std::uint64_t{1} << kBits * (kDigits - 1 - c.shape_a % kDigits);
     return {kind.value(), touch, robot};
 }
 

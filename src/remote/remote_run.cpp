@@ -86,8 +86,8 @@ Result<std::unique_ptr<RemoteRun>> RemoteRun::connect(const RemoteOptions& optio
     return join(options, std::move(opened).value(), go_on);
 }
 
-Result<std::unique_ptr<RemoteRun>> RemoteRun::join(const RemoteOptions& options, std::unique_ptr<StreamBus> bus,
-                                                   const GoOn& go_on) {
+Result<std::unique_ptr<RemoteRun>> RemoteRun::join(const RemoteOptions& options,
+                                                   std::unique_ptr<StreamBus> bus, const GoOn& go_on) {
     const Address self = client_address();
     Patience patience(*bus, options);
     ModelPull pull;

@@ -1,6 +1,6 @@
 // RemoteRun: a run of a Controller elsewhere, as a program sees it that steps it: a synchronous Client over
-// the network. The world waits at each observation until the program steps on. Its states are those of the cluster,
-// bit for bit, with the arrays and sensors of a LocalRun.
+// the network. The world waits at each observation until the program steps on. Its states are those of the
+// cluster, bit for bit, with the arrays and sensors of a LocalRun.
 #pragma once
 
 #include <functional>
@@ -74,10 +74,10 @@ class RemoteRun final : public RunAccess {
     void leave();
 
   private:
-    RemoteRun(std::shared_ptr<const Model> model, const RemoteOptions& options, std::unique_ptr<StreamBus> bus,
-              std::unique_ptr<BusClient> client);
-    static Result<std::unique_ptr<RemoteRun>> join(const RemoteOptions& options, std::unique_ptr<StreamBus> bus,
-                                                   const GoOn& go_on);
+    RemoteRun(std::shared_ptr<const Model> model, const RemoteOptions& options,
+              std::unique_ptr<StreamBus> bus, std::unique_ptr<BusClient> client);
+    static Result<std::unique_ptr<RemoteRun>> join(const RemoteOptions& options,
+                                                   std::unique_ptr<StreamBus> bus, const GoOn& go_on);
     /// Waits until done(), advancing the Client; also while the Model is another one, if `even_outdated`.
     Result<> wait_until(const std::function<bool()>& done, const GoOn& go_on, bool even_outdated = false);
     /// The answer to a request; `even_outdated`: none if the run is outdated() before it comes.

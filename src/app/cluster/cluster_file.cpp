@@ -63,8 +63,8 @@ class Reading {
         if (node == nullptr) return false;
         const auto value = node->value_exact<bool>();
         if (!value)
-            fail(*node, fmt::format("'{}' is neither true nor false", key), fmt::format("write {} = true", key),
-                 "wrong-type");
+            fail(*node, fmt::format("'{}' is neither true nor false", key),
+                 fmt::format("write {} = true", key), "wrong-type");
         return value.value_or(false);
     }
 
@@ -145,7 +145,8 @@ void add_controller(Reading& read, const toml::table& root, ClusterFile& file) {
     file.controller = address_of_controller(read, *table);
     if (const std::string interface = read.text(*table, "interface", ""); !interface.empty())
         append(process.network, {"--interface", interface});
-    if (const std::int64_t port = table->contains("port") ? read.number(*table, "port", 0, 65'535) : 0; port > 0)
+    if (const std::int64_t port = table->contains("port") ? read.number(*table, "port", 0, 65'535) : 0;
+        port > 0)
         append(process.network, {"--port", std::to_string(port)});
     append(process.arguments, read.texts(*table, "options"));
     file.processes.push_back(std::move(process));
@@ -207,8 +208,8 @@ Result<ClusterFile> load_cluster_file(const std::string& path) {
                      "see https://toml.io for the syntax", "bad-toml"};
     }
     const toml::table& root = parsed.table();
-    read.only(root, {"simulation", "program", "folder", "reach", "keys", "insecure", "controller", "simulators",
-                     "clients"});
+    read.only(root, {"simulation", "program", "folder", "reach", "keys", "insecure", "controller",
+                     "simulators", "clients"});
     ClusterFile file;
     file.path = path;
     file.simulation = read.text(root, "simulation", "default");

@@ -62,9 +62,9 @@ std::string key_script(const ClusterFile& file, const ClusterProcess& process, c
     for (const std::string& serial : keys.revoked) revoked += serial + "\n";
     std::string script = fmt::format("(umask 077; mkdir -p {0} && cd {0} && rm -f revoked || exit 3\n",
                                      folder_of_key(file, process));
-    for (const auto& [name, text] : {std::pair{"authority.crt", &keys.authority},
-                                     std::pair{"member.crt", &keys.own.certificate},
-                                     std::pair{"member.key", &keys.own.key}, std::pair{"revoked", &std::as_const(revoked)}})
+    for (const auto& [name, text] :
+         {std::pair{"authority.crt", &keys.authority}, std::pair{"member.crt", &keys.own.certificate},
+          std::pair{"member.key", &keys.own.key}, std::pair{"revoked", &std::as_const(revoked)}})
         script += fmt::format("cat >{} <<'END-OF-KEY'\n{}END-OF-KEY\n", name, *text);
     return script + ") || exit 3\n";
 }

@@ -18,8 +18,8 @@ struct Started {
     long pid = 0;
 };
 
-/// A key for each process, from the folder of the file's keys, where those that are missing are made. None if the
-/// file says `insecure`.
+/// A key for each process, from the folder of the file's keys, where those that are missing are made. None if
+/// the file says `insecure`.
 Result<std::vector<Credentials>> keys_of(const ClusterFile& file);
 
 /// The processes that run, and an error for each of the others.

@@ -249,10 +249,10 @@ Result<std::string> ask_status(const StatusOptions& o, const ClusterFile* file) 
         return status_json(status.value());
     }
     const ClusterProcess& controller = file->processes.front();
-    return run_on_host(
-        *file, controller.host,
-        "exec " + quoted(file->program) + " control status --quiet --patience 5 --simulation " +
-            quoted(file->simulation) + "\n");
+    return run_on_host(*file, controller.host,
+                       "exec " + quoted(file->program) +
+                           " control status --quiet --patience 5 --simulation " + quoted(file->simulation) +
+                           "\n");
 }
 
 /// The status of the started processes, as their hosts report it; an Error if the Controller does not run.

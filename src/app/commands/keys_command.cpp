@@ -86,15 +86,17 @@ int revoke(const KeysOptions& o) {
     Result<KeyRing> ring = ring_of(o);
     if (!ring) return fail(ring.error());
     if (Result<> revoked = ring.value().revoke(o.name); !revoked) return fail(revoked.error());
-    fmt::print("the key of {} is revoked; Controllers with their keys elsewhere need the new file `revoked`\n",
-               o.name);
+    fmt::print(
+        "the key of {} is revoked; Controllers with their keys elsewhere need the new file `revoked`\n",
+        o.name);
     return kSuccess;
 }
 
 }  // namespace
 
 void add_keys_command(CLI::App& app, int& exit_code) {
-    CLI::App* command = app.add_subcommand("keys", "make, list and revoke the keys of members on other computers");
+    CLI::App* command =
+        app.add_subcommand("keys", "make, list and revoke the keys of members on other computers");
     command->footer(kKeysFooter);
     command->require_subcommand(1);
     auto o = std::make_shared<KeysOptions>();
@@ -106,7 +108,9 @@ void add_keys_command(CLI::App& app, int& exit_code) {
     sub->add_option("name", o->name, "of its holder")->required();
     sub->add_option("--role", o->role, "controller, simulator, client, or member (Simulator or Client)")
         ->capture_default_str();
-    sub->add_option("--days", o->days, "until it expires")->check(whole_number(1, 36'500))->capture_default_str();
+    sub->add_option("--days", o->days, "until it expires")
+        ->check(whole_number(1, 36'500))
+        ->capture_default_str();
     sub->callback([o, &exit_code] { exit_code = add(*o); });
     sub = command->add_subcommand("list", "print the names, roles and ends of all keys");
     folder(sub);

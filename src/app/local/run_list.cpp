@@ -82,9 +82,10 @@ Result<ListedRun> find_run(const std::string& name) {
     const Result<std::vector<ListedRun>> runs = listed_runs();
     if (!runs) return runs.error();
     if (runs.value().empty())
-        return Error{"there is no run on this computer",
-                     "start one with `roboss run WORLD`; to reach one on another computer, add --controller HOST",
-                     "no-run"};
+        return Error{
+            "there is no run on this computer",
+            "start one with `roboss run WORLD`; to reach one on another computer, add --controller HOST",
+            "no-run"};
     std::vector<ListedRun> found;
     for (const ListedRun& run : runs.value())
         if (name.empty() || run.name == name || std::to_string(run.pid) == name) found.push_back(run);

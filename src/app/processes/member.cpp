@@ -32,8 +32,7 @@ void add_member_options(CLI::App& command, MemberOptions& o) {
 
 void note_given(const CLI::App& command, MemberOptions& o) {
     o.named = command.get_option("--simulation")->count() > 0;
-    for (const char* name : kJoinOptions)
-        o.networked = o.networked || command.get_option(name)->count() > 0;
+    for (const char* name : kJoinOptions) o.networked = o.networked || command.get_option(name)->count() > 0;
 }
 
 bool Member::open() {
@@ -74,12 +73,12 @@ bool Member::wait() {
     if (now - seen_ms_ > kReportWaiting_ms && !std::exchange(waiting_reported_, true))
         report(fmt::format("waiting for the Controller of {}", describe(o_.network)));
     if (o_.patience_s <= 0 || static_cast<double>(now - seen_ms_) < 1e3 * o_.patience_s) return true;
-    report_error(
-        {fmt::format("no Controller of {} found for {} s", describe(o_.network), o_.patience_s),
-         o_.network.controller.empty()
-             ? "start `roboss controller` with the same --simulation on this computer, or give --controller HOST"
-             : "start `roboss controller` there with an --interface that others reach, or correct --controller",
-         "no-controller"});
+    report_error({fmt::format("no Controller of {} found for {} s", describe(o_.network), o_.patience_s),
+                  o_.network.controller.empty() ? "start `roboss controller` with the same --simulation on "
+                                                  "this computer, or give --controller HOST"
+                                                : "start `roboss controller` there with an --interface that "
+                                                  "others reach, or correct --controller",
+                  "no-controller"});
     return false;
 }
 

@@ -34,8 +34,8 @@ class Member {
     Address new_address(Role role) const;
     /// Waits for the Model; null if it cannot be fetched (it has been reported) or on Ctrl-C.
     std::shared_ptr<const Model> fetch_model(const Address& self);
-    /// Waits for messages between two turns of the role. False: no Controller for too long, or it refuses this
-    /// process; it has been reported.
+    /// Waits for messages between two turns of the role. False: no Controller for too long, or it refuses
+    /// this process; it has been reported.
     bool wait();
     void report(const std::string& line) const;
     void report_error(const Error& error) const;

@@ -15,8 +15,9 @@ void add(CLI::Option* option, const char* variable) {
 void add_common(CLI::App& command, NetOptions& o, const char* keys) {
     add(command.add_option("--simulation", o.simulation, "name of the run"), "ROBOSS_SIMULATION");
     add(command.add_option("--keys", o.keys, keys), "ROBOSS_KEYS");
-    add(command.add_flag("--insecure", o.insecure,
-                         "neither encryption nor keys: everybody who reaches the port can read and change the run"),
+    add(command.add_flag(
+            "--insecure", o.insecure,
+            "neither encryption nor keys: everybody who reaches the port can read and change the run"),
         "ROBOSS_INSECURE");
     add(command
             .add_option("--liveliness-ms", o.liveliness_ms,
@@ -28,12 +29,14 @@ void add_common(CLI::App& command, NetOptions& o, const char* keys) {
 }  // namespace
 
 void add_listen_options(CLI::App& command, NetOptions& o) {
-    add_common(command, o,
-               "folder with the Controller's key (`roboss keys`); default: keys of this run, which members of "
-               "this computer and user find");
-    add(command.add_option("--interface", o.interface,
-                           "network interface at which members join, by name or IPv4 address; 0.0.0.0: all; the "
-                           "default reaches processes of this computer only"),
+    add_common(
+        command, o,
+        "folder with the Controller's key (`roboss keys`); default: keys of this run, which members of "
+        "this computer and user find");
+    add(command.add_option(
+            "--interface", o.interface,
+            "network interface at which members join, by name or IPv4 address; 0.0.0.0: all; the "
+            "default reaches processes of this computer only"),
         "ROBOSS_INTERFACE");
     add(command.add_option("--port", o.port, "TCP port there (default: any on loopback, else 7117)"),
         "ROBOSS_PORT");

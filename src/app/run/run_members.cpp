@@ -52,7 +52,8 @@ Result<> RunMembers::open_network() {
     notices_.push_back(fmt::format("Controller of {} at {}, waiting for {} Simulators [waiting]",
                                    describe(network_), bus_->where(), o_.simulators));
     if (network_.insecure)
-        notices_.push_back("everybody who reaches " + bus_->where() + " can read and change this run [insecure]");
+        notices_.push_back("everybody who reaches " + bus_->where() +
+                           " can read and change this run [insecure]");
     return Ok{};
 }
 

@@ -6,15 +6,16 @@
 namespace roboss {
 namespace friction {
 
-/// Moves a friction bound, where `some`, towards what the normal impulse allows. Where more friction means less
-/// pressure the plain update swings for ever between two values, so a swing that hardly shrinks halves the
-/// step.
+/// Moves a friction bound, where `some`, towards what the normal impulse allows. Where more friction means
+/// less pressure the plain update swings for ever between two values, so a swing that hardly shrinks halves
+/// the step.
 template <class T>
 void update_bound(const T& wanted, const MaskOf<T>& some, T& bound, T& last_error, T& relaxation) {
     constexpr double kSlowest = 0.05, kRecovery = 1.2;
     const T error = wanted - bound;
     const MaskOf<T> swings = (error * last_error < T(0)) & (magnitude(error) > 0.8 * magnitude(last_error));
-    const T share = select(swings, larger(0.5 * relaxation, T(kSlowest)), smaller(kRecovery * relaxation, T(1)));
+    const T share =
+        select(swings, larger(0.5 * relaxation, T(kSlowest)), smaller(kRecovery * relaxation, T(1)));
     relaxation = select(some, share, relaxation);
     last_error = select(some, error, last_error);
     bound = select(some, bound + share * error, bound);

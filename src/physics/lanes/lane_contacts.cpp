@@ -80,7 +80,9 @@ ContactMemory* LaneContacts::memory_for(std::size_t count, RobotState& state) {
 }
 
 unsigned LaneContacts::share(const Model& model, const RobotType& type, unsigned present) {
-    const auto is_rough = [&](const Contact& c) { return !is_plain(model, type.shapes[c.shape_a], c.shape_b); };
+    const auto is_rough = [&](const Contact& c) {
+        return !is_plain(model, type.shapes[c.shape_a], c.shape_b);
+    };
     unsigned touching = 0;
     for (std::size_t lane = 0; lane < spans_.size(); ++lane) {
         if ((present & bit(lane)) == 0) continue;

@@ -1,5 +1,5 @@
-// What is done lane by lane around a step in lanes: finding the contacts, and telling which lanes have which of
-// them. Compiled for every processor, unlike lane_step.h.
+// What is done lane by lane around a step in lanes: finding the contacts, and telling which lanes have which
+// of them. Compiled for every processor, unlike lane_step.h.
 #pragma once
 
 #include <array>
@@ -41,10 +41,10 @@ class LaneContacts {
 
     /// Contacts found elsewhere.
     void take(std::size_t lane, std::span<Contact> contacts) { spans_[lane] = contacts; }
-    /// Finds the slots of the lanes `present`: contact points of a pair of shapes, as many as one of the lanes
-    /// has. Returns the lanes that share them: of robots with joints those whose surfaces are plain and that
-    /// touch something, as most do, or nothing; of free bodies those that have as many points of each pair as
-    /// most.
+    /// Finds the slots of the lanes `present`: contact points of a pair of shapes, as many as one of the
+    /// lanes has. Returns the lanes that share them: of robots with joints those whose surfaces are plain and
+    /// that touch something, as most do, or nothing; of free bodies those that have as many points of each
+    /// pair as most.
     unsigned share(const Model& model, const RobotType& type, unsigned present);
 
     std::size_t slots() const { return slots_.size(); }

@@ -1,7 +1,7 @@
-// Newton's method for a few robots in lanes. Each lane takes the course of solver/newton.h at its own pace: in
-// each round all that are not done take one step, coupled or not, and each lane keeps where in the method it
-// stands. Whatever a lane does not do is computed for it too, and not taken. Everything that is computed from
-// velocities and friction bounds may be computed again for lanes that wait: it comes out the same.
+// Newton's method for a few robots in lanes. Each lane takes the course of solver/newton.h at its own pace:
+// in each round all that are not done take one step, coupled or not, and each lane keeps where in the method
+// it stands. Whatever a lane does not do is computed for it too, and not taken. Everything that is computed
+// from velocities and friction bounds may be computed again for lanes that wait: it comes out the same.
 //
 // Floats have no digits to spare: see newton_base.h.
 #pragma once
@@ -69,7 +69,8 @@ class LaneNewton : public NewtonBase<T, TreeHessian<T>> {
     Mask going_{false}, solved_{false}, coupled_{false}, failed_{false};
     Mask settled_{false};  // friction bounds stay as they are
     bool stays_settled_ = false;
-    T turns_{}, far_{}, bound_updates_{}, stalls_{}, coupled_tries_{}, coupled_steps_{}, checks_{};  // counted
+    T turns_{}, far_{}, bound_updates_{}, stalls_{}, coupled_tries_{}, coupled_steps_{},
+        checks_{};  // counted
     T best_{}, before_{}, checked_error_{};
     Place start_, checked_;
     std::vector<T> bounds_now_, bounds_checked_;
@@ -144,12 +145,14 @@ void LaneNewton<T>::decide(const SolveProblem<T>& p, std::vector<T>& v, SolveRep
                             (report.residual > newton::kStalled * best_);
         set(here, select(stalls, stalls_ + T(1), T(0)), stalls_);
         set(here, select(settled_, smaller(best_, report.residual), T(1)), best_);
-        const Mask balanced = here & settled_ &
-                              ((report.residual <= newton::tolerance(p)) | (stalls_ >= T(newton::kStallsMax)));
+        const Mask balanced =
+            here & settled_ &
+            ((report.residual <= newton::tolerance(p)) | (stalls_ >= T(newton::kStallsMax)));
         asks = asks & !balanced;
         const Mask again = any(balanced) ? check_friction(p, balanced, v, report) : Mask(false);
         count(asks & (report.residual > T(newton::kFar)), far_);
-        const Mask gives_up = asks & ((far_ > T(newton::far_max(p, plan_))) | (turns_ >= T(p.accuracy.newton_max)));
+        const Mask gives_up =
+            asks & ((far_ > T(newton::far_max(p, plan_))) | (turns_ >= T(p.accuracy.newton_max)));
         if (any(gives_up)) give_up(p, gives_up, v, report);
         count((asks & !gives_up) | again, turns_);
         asks = again;
@@ -158,8 +161,8 @@ void LaneNewton<T>::decide(const SolveProblem<T>& p, std::vector<T>& v, SolveRep
 
 /// Lanes that may begin coupled steps do, unless they are there; returns them.
 template <class T>
-MaskOf<T> LaneNewton<T>::begin_coupled(const SolveProblem<T>& p, const Mask& at_head,
-                                       const std::vector<T>& v, SolveReportT<T>& report) {
+MaskOf<T> LaneNewton<T>::begin_coupled(const SolveProblem<T>& p, const Mask& at_head, const std::vector<T>& v,
+                                       SolveReportT<T>& report) {
     const Mask begins = at_head & !failed_ & !settled_ & (coupled_tries_ < T(newton::kCoupledTries));
     if (!any(begins)) return begins;
     count(begins, coupled_tries_);
@@ -296,9 +299,8 @@ void LaneNewton<T>::keep(const SolveProblem<T>& p, const Mask& some, const std::
         place.u.resize(p.rows.joints.size() + 3 * p.rows.contacts.size());
         T* u = place.u.data();
         for_each_bounded(p.rows, [&](BoundedRowT<T>& row) { set(some, row.u, *u++); });
-        for_each_disc(p.rows, [&](FrictionDiscT<T>& disc) {
-            set(some, disc.u_1, *u++), set(some, disc.u_2, *u++);
-        });
+        for_each_disc(p.rows,
+                      [&](FrictionDiscT<T>& disc) { set(some, disc.u_1, *u++), set(some, disc.u_2, *u++); });
     }
 }
 
@@ -309,9 +311,8 @@ void LaneNewton<T>::go_back(const SolveProblem<T>& p, const Mask& some, const Pl
     if constexpr (kIsFloat<T>) {
         const T* u = place.u.data();
         for_each_bounded(p.rows, [&](BoundedRowT<T>& row) { set(some, *u++, row.u); });
-        for_each_disc(p.rows, [&](FrictionDiscT<T>& disc) {
-            set(some, *u++, disc.u_1), set(some, *u++, disc.u_2);
-        });
+        for_each_disc(p.rows,
+                      [&](FrictionDiscT<T>& disc) { set(some, *u++, disc.u_1), set(some, *u++, disc.u_2); });
     } else {
         set_steps(p.rows, v);
         for_each_bounded(p.rows, [&](BoundedRowT<T>& row) { set(some, row.du, row.u); });

@@ -324,8 +324,8 @@ class LaneStep final : public LaneStepper {
         split_ = add_tree_rows(model, type, joints, 0, together, rows_.joints);
         for (std::size_t c = 0; c < contacts_.size(); ++c) {
             const ContactT<T>& contact = contacts_[c];
-            Mask split = add_contact_row<T>(model, contact, surfaces_[c], {&work_, contact.body_a, 0}, nullptr,
-                                            rows_);
+            Mask split =
+                add_contact_row<T>(model, contact, surfaces_[c], {&work_, contact.body_a, 0}, nullptr, rows_);
             if constexpr (kIsFloat<T>)
                 count_from(velocities_[c], frame_of(contact.normal, surfaces_[c].friction),
                            rows_.contacts.back());
@@ -344,7 +344,8 @@ class LaneStep final : public LaneStepper {
     /// Bit i: lane i has contact c.
     unsigned lanes_with(std::size_t c) const { return on_plane_ ? kAllLanes<T> : found_.in_slot(c); }
 
-    /// A row that only the robots `present` have: in the other lanes it does nothing, whatever the velocities.
+    /// A row that only the robots `present` have: in the other lanes it does nothing, whatever the
+    /// velocities.
     void withdraw(const Mask& present, ContactRowT<T>& row) {
         const auto clear = [&](T& x) { x = select(present, x, T(0)); };
         for (std::size_t k = row.first; k < row.last; ++k)

@@ -172,7 +172,8 @@ bool Newton<Matrix>::iterate(const Problem& p, std::vector<double>& v, Report& r
             }
             if (!settled) {
                 const double change = friction::update_bounds(p.rows);
-                settled = change <= newton::friction_tolerance(p) || ++bound_updates >= p.accuracy.friction_max;
+                settled =
+                    change <= newton::friction_tolerance(p) || ++bound_updates >= p.accuracy.friction_max;
                 report.residual = balance(p);
             }
             const bool stalls_now = settled && report.residual <= newton::kRounding<double> &&

@@ -1,5 +1,5 @@
-// The parts of Newton's method for a contact island: the balance of momentum, a step, what lies along it. Over
-// T: one island (double, newton.h), or a few robots of one type in lanes (lanes/lane_newton.h).
+// The parts of Newton's method for a contact island: the balance of momentum, a step, what lies along it.
+// Over T: one island (double, newton.h), or a few robots of one type in lanes (lanes/lane_newton.h).
 //
 // Floats have no digits to spare: with them, solved is the change of the velocity in the tick, all targets
 // come relative to the velocities before it, and rows measure their velocities from their targets, so that
@@ -159,7 +159,7 @@ class NewtonBase {
 
 template <class T, class Matrix>
 void NewtonBase<T, Matrix>::times_mass(const SolveProblem<T>& p, const std::vector<T>& x,
-                                   std::vector<T>& y) const {
+                                       std::vector<T>& y) const {
     for (std::size_t r = 0; r < p.robots.size(); ++r) {
         const auto offset = static_cast<std::size_t>(p.offsets[r]);
         tree_times(p.robots[r]->type->paths, p.robots[r]->mass_matrix.data(), x.data() + offset,

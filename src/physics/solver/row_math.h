@@ -199,7 +199,7 @@ void add_impulses(const IslandRowsT<T>& rows, std::vector<T>& y) {
     }
     for (const ContactRowT<T>& row : rows.contacts) {
         const jacobian::Along<T> impulse{row.normal.impulse, row.slip.impulse_1, row.slip.impulse_2};
-        if constexpr (kLanesOf<T> > 1)
+        if constexpr (kLanesOf < T >> 1)
             if (any(!row.present)) {
                 jacobian::add_where<T>(row.present, rows.columns, row.first, row.last, impulse, y);
                 continue;

@@ -1,5 +1,6 @@
-// Exchange: the connections of a process, in a thread of their own. The Controller's takes calls and passes on what
-// is for others; a member's calls the Controller, again and again until it is there. Who is silent is hung up on.
+// Switchboard: the connections of a process, in a thread of their own. The Controller's takes calls and
+// passes on what is for others; a member's calls the Controller, again and again until it is there. Who is
+// silent is hung up on.
 #pragma once
 
 #include <cstdint>
@@ -22,16 +23,16 @@ class Connection;
 class Mailboxes;
 struct Frame;
 
-class Exchange {
+class Switchboard {
   public:
     /// Who this process is, as it says when it calls.
     struct Member {
         std::string role, name;
     };
     /// Of the Controller's process, or (with `member`) of another one. See StreamBus for the Errors.
-    static Result<std::unique_ptr<Exchange>> open(const NetOptions& options, std::optional<Member> member,
-                                                  Mailboxes& mailboxes);
-    ~Exchange();
+    static Result<std::unique_ptr<Switchboard>> open(const NetOptions& options, std::optional<Member> member,
+                                                     Mailboxes& mailboxes);
+    ~Switchboard();
 
     /// An encoded Envelope. Lost if nobody is connected who has `to`, or knows who has it.
     void send(const Address& to, std::vector<std::uint8_t> bytes, bool urgent);
@@ -59,7 +60,7 @@ class Exchange {
         std::int64_t own_ms = 0;
     };
 
-    Exchange(const NetOptions& options, std::optional<Member> member, Mailboxes& mailboxes);
+    Switchboard(const NetOptions& options, std::optional<Member> member, Mailboxes& mailboxes);
     Result<> listen();
     Result<> check_keys() const;
     void run();

@@ -1,5 +1,5 @@
 // Calls, answers, routes, and silence.
-#include "net/exchange.h"
+#include "net/switchboard.h"
 
 #include <algorithm>
 #include <boost/asio/executor_work_guard.hpp>
@@ -25,13 +25,14 @@ namespace asio = boost::asio;
 using Tcp = asio::ip::tcp;
 
 constexpr std::int64_t kTurn_ms = 50;
-constexpr std::int64_t kGreet_ms = 10'000;   // for handshake and first frame
-constexpr std::int64_t kFarewell_ms = 500;   // of a connection that is closing
-constexpr std::int64_t kBeat_ms = 200;       // between two heartbeats, and from the role's last message
-constexpr std::int64_t kBusyMost_ms = 60'000;  // a role that is silent for longer hangs: the beat ends with it
+constexpr std::int64_t kGreet_ms = 10'000;  // for handshake and first frame
+constexpr std::int64_t kFarewell_ms = 500;  // of a connection that is closing
+constexpr std::int64_t kBeat_ms = 200;      // between two heartbeats, and from the role's last message
+constexpr std::int64_t kBusyMost_ms =
+    60'000;  // a role that is silent for longer hangs: the beat ends with it
 constexpr std::int64_t kRetry_ms = 50, kRetryLongest_ms = 2'000, kConnect_ms = 3'000;
 constexpr std::int64_t kJudge_ms = 1'000;
-constexpr std::size_t kStrangersMost = 512;   // connections that have not been accepted yet
+constexpr std::size_t kStrangersMost = 512;    // connections that have not been accepted yet
 constexpr std::size_t kAddressesMost = 1'000;  // of one peer
 constexpr std::size_t kNoticesMost = 100;
 constexpr int kRunKeys_days = 3'650;  // keys of a run end with it
@@ -47,7 +48,8 @@ Result<RunKeys> new_run_keys(const std::string& simulation) {
     RunKeys keys;
     for (auto& [credentials, seat] :
          {std::pair{&keys.controller, Seat::kController}, std::pair{&keys.member, Seat::kMember}}) {
-        Result<KeyPair> own = new_certificate(authority.value(), {simulation.substr(0, 60), seat}, kRunKeys_days);
+        Result<KeyPair> own =
+            new_certificate(authority.value(), {simulation.substr(0, 60), seat}, kRunKeys_days);
         if (!own) return own.error();
         *credentials = {authority.value().certificate, std::move(own).value(), {}};
     }
@@ -63,16 +65,19 @@ const char* remedy_for(const std::string& code) {
 
 bool may_be(Seat seat, Role role) {
     switch (role) {
-        case Role::kController: return false;
-        case Role::kSimulator: return seat == Seat::kSimulator || seat == Seat::kMember;
-        case Role::kClient: return seat == Seat::kClient || seat == Seat::kMember;
+        case Role::kController:
+            return false;
+        case Role::kSimulator:
+            return seat == Seat::kSimulator || seat == Seat::kMember;
+        case Role::kClient:
+            return seat == Seat::kClient || seat == Seat::kMember;
     }
     return false;
 }
 
 }  // namespace
 
-struct Exchange::Thread {
+struct Switchboard::Thread {
     asio::io_context context{1};
     asio::executor_work_guard<asio::io_context::executor_type> work{context.get_executor()};
     Tcp::acceptor acceptor{context};
@@ -88,24 +93,24 @@ struct Exchange::Thread {
     std::thread thread;
 };
 
-Exchange::Exchange(const NetOptions& options, std::optional<Member> member, Mailboxes& mailboxes)
+Switchboard::Switchboard(const NetOptions& options, std::optional<Member> member, Mailboxes& mailboxes)
     : options_(options),
       member_(std::move(member)),
       mailboxes_(mailboxes),
       thread_(std::make_unique<Thread>()) {}
 
-Result<std::unique_ptr<Exchange>> Exchange::open(const NetOptions& options, std::optional<Member> member,
-                                                 Mailboxes& mailboxes) {
+Result<std::unique_ptr<Switchboard>> Switchboard::open(const NetOptions& options,
+                                                       std::optional<Member> member, Mailboxes& mailboxes) {
     if (Result<> named = check_simulation_name(options.simulation); !named) return named.error();
-    std::unique_ptr<Exchange> exchange(new Exchange(options, std::move(member), mailboxes));
-    if (Result<> keys = exchange->check_keys(); !keys) return keys.error();
-    if (!exchange->member_)
-        if (Result<> listening = exchange->listen(); !listening) return listening.error();
-    exchange->run();
-    return exchange;
+    std::unique_ptr<Switchboard> switchboard(new Switchboard(options, std::move(member), mailboxes));
+    if (Result<> keys = switchboard->check_keys(); !keys) return keys.error();
+    if (!switchboard->member_)
+        if (Result<> listening = switchboard->listen(); !listening) return listening.error();
+    switchboard->run();
+    return switchboard;
 }
 
-Result<> Exchange::check_keys() const {
+Result<> Switchboard::check_keys() const {
     if (options_.keys.empty()) return Ok{};
     if (options_.insecure)
         return Error{"--insecure and --keys contradict each other", "give one of them", "bad-keys"};
@@ -121,7 +126,7 @@ Result<> Exchange::check_keys() const {
                  "bad-keys"};
 }
 
-Result<> Exchange::listen() {
+Result<> Switchboard::listen() {
     raise_connection_limit();
     if (MeetingPlace::find(options_.simulation)) return MeetingPlace::taken(options_.simulation);
     const Result<std::string> address = interface_address(options_.interface);
@@ -148,8 +153,9 @@ Result<> Exchange::listen() {
     if (!error) acceptor.bind(end, error);
     if (!error) acceptor.listen(asio::socket_base::max_listen_connections, error);
     if (error)
-        return Error{"cannot listen at " + address.value() + ":" + std::to_string(port) + ": " + error.message(),
-                     "end what uses this port, or give another one with --port", "port-taken"};
+        return Error{
+            "cannot listen at " + address.value() + ":" + std::to_string(port) + ": " + error.message(),
+            "end what uses this port, or give another one with --port", "port-taken"};
     const std::string bound = std::to_string(acceptor.local_endpoint().port());
     where_ = address.value() + ":" + bound;
     note.address = (address.value() == "0.0.0.0" ? "127.0.0.1" : address.value()) + ":" + bound;
@@ -159,7 +165,7 @@ Result<> Exchange::listen() {
     return Ok{};
 }
 
-void Exchange::run() {
+void Switchboard::run() {
     asio::post(thread_->context, [this] {
         if (member_)
             call();
@@ -170,7 +176,7 @@ void Exchange::run() {
     thread_->thread = std::thread([this] { thread_->context.run(); });
 }
 
-Exchange::~Exchange() {
+Switchboard::~Switchboard() {
     if (!thread_->thread.joinable()) return;
     thread_->context.stop();
     thread_->thread.join();
@@ -178,7 +184,7 @@ Exchange::~Exchange() {
 
 // --- connections
 
-void Exchange::accept() {
+void Switchboard::accept() {
     thread_->acceptor.async_accept([this](const auto& error, Tcp::socket socket) {
         if (error) {  // no descriptor is left: others may give some back
             notice("a call cannot be taken: " + error.message() + " [accept]");
@@ -191,7 +197,7 @@ void Exchange::accept() {
     });
 }
 
-Exchange::Peer Exchange::connect(int socket, std::shared_ptr<const TlsContext> tls) {
+Switchboard::Peer Switchboard::connect(int socket, std::shared_ptr<const TlsContext> tls) {
     Connection::Events events;
     events.ready = [this](Connection& peer) { ready(peer); };
     events.frame = [this](Connection& peer, const Frame& frame) { take_frame(peer, frame); };
@@ -213,7 +219,7 @@ Exchange::Peer Exchange::connect(int socket, std::shared_ptr<const TlsContext> t
     return peer;
 }
 
-void Exchange::call() {
+void Switchboard::call() {
     Thread& t = *thread_;
     std::string at = options_.controller;
     std::optional<Credentials> keys;
@@ -249,37 +255,40 @@ void Exchange::call() {
     t.calling = true;
     t.called_ms = monotonic_ms();
     t.caller = Tcp::socket(t.context);
-    t.caller.async_connect({asio::ip::make_address_v4(end.value().address), port}, [this, at](const auto& error) {
-        if (!error) return called(thread_->caller.release());
-        thread_->calling = false;
-        report_trouble("no Controller answers at " + at + ": " + error.message());
-    });
+    t.caller.async_connect({asio::ip::make_address_v4(end.value().address), port},
+                           [this, at](const auto& error) {
+                               if (!error) return called(thread_->caller.release());
+                               thread_->calling = false;
+                               report_trouble("no Controller answers at " + at + ": " + error.message());
+                           });
 }
 
-void Exchange::called(int socket) {
+void Switchboard::called(int socket) {
     connect(socket, thread_->calling_with);
 }
 
-void Exchange::ready(Connection& peer) {
+void Switchboard::ready(Connection& peer) {
     const TlsSession* session = peer.session();
     const std::string objection = session == nullptr ? "" : session->objection();
     if (!member_) {
         if (!objection.empty()) return refuse(peer, "bad-certificate", objection);
         if (session != nullptr && session->peer().seat == Seat::kController)
-            return refuse(peer, "bad-certificate", "the key of '" + session->peer().name + "' is a Controller's");
+            return refuse(peer, "bad-certificate",
+                          "the key of '" + session->peer().name + "' is a Controller's");
         return;
     }
     if (!objection.empty())
         return give_up(peer, {"the Controller at " + where() + " cannot be trusted: " + objection,
                               remedy_for("bad-certificate"), "bad-certificate"});
     if (session != nullptr && session->peer().seat != Seat::kController)
-        return give_up(peer, {"'" + session->peer().name + "' answers at " + where() + ", and is no Controller",
-                              "check the address", "bad-certificate"});
+        return give_up(peer,
+                       {"'" + session->peer().name + "' answers at " + where() + ", and is no Controller",
+                        "check the address", "bad-certificate"});
     peer.send_frame(FrameKind::kHello,
                     encode_hello({kWireVersion, options_.simulation, member_->role, member_->name}));
 }
 
-void Exchange::take_frame(Connection& peer, const Frame& frame) {
+void Switchboard::take_frame(Connection& peer, const Frame& frame) {
     if (frame.kind == FrameKind::kPing) return;
     if (frame.kind == FrameKind::kHello && !member_ && !peer.accepted) return take_hello(peer, frame);
     if (frame.kind == FrameKind::kAccept && member_ && !peer.accepted) {
@@ -288,13 +297,15 @@ void Exchange::take_frame(Connection& peer, const Frame& frame) {
         {
             const std::lock_guard lock(mutex_);
             controller_ = peer.shared_from_this();
-            if (thread_->was_connected) line = "connected to the Controller at " + where_ + " again [reconnected]";
+            if (thread_->was_connected)
+                line = "connected to the Controller at " + where_ + " again [reconnected]";
             trouble_.clear();
         }
         if (!line.empty()) notice(std::move(line));
         thread_->was_connected = true;
         thread_->retry_ms = kRetry_ms;
-        for (const Address& own : mailboxes_.addresses()) peer.send_frame(FrameKind::kOwn, encode_address(own));
+        for (const Address& own : mailboxes_.addresses())
+            peer.send_frame(FrameKind::kOwn, encode_address(own));
         return mailboxes_.ring();
     }
     if (frame.kind == FrameKind::kOwn && !member_ && peer.accepted) {
@@ -307,11 +318,12 @@ void Exchange::take_frame(Connection& peer, const Frame& frame) {
         return give_up(peer, {"the Controller at " + where() + " refuses this process: " + refusal.reason,
                               remedy_for(refusal.code), refusal.code});
     }
-    refuse(peer, "misbehaves", "it sent a frame of kind " + std::to_string(static_cast<int>(frame.kind)) +
-                                   " where none is expected");
+    refuse(peer, "misbehaves",
+           "it sent a frame of kind " + std::to_string(static_cast<int>(frame.kind)) +
+               " where none is expected");
 }
 
-void Exchange::take_hello(Connection& peer, const Frame& frame) {
+void Switchboard::take_hello(Connection& peer, const Frame& frame) {
     Result<Caller> hello = decode_hello(frame.content);
     if (!hello) return refuse(peer, "misbehaves", hello.error().message);
     peer.hello = std::move(hello).value();
@@ -328,18 +340,18 @@ void Exchange::take_hello(Connection& peer, const Frame& frame) {
 }
 
 /// Names the peer on this side, tells it on the other, and hangs up.
-void Exchange::refuse(Connection& peer, const std::string& code, const std::string& reason) {
+void Switchboard::refuse(Connection& peer, const std::string& code, const std::string& reason) {
     const std::string name = peer.session() != nullptr && !peer.session()->peer().name.empty()
                                  ? "'" + peer.session()->peer().name + "' "
                                  : "";
     notice((peer.accepted ? "cut off " : "refused ") + name +
-           (peer.hello.name.empty() ? "" : peer.hello.name + " ") + "at " + peer.where() + ": " + reason + " [" +
-           code + "]");
+           (peer.hello.name.empty() ? "" : peer.hello.name + " ") + "at " + peer.where() + ": " + reason +
+           " [" + code + "]");
     peer.send_frame(FrameKind::kRefuse, encode_refusal({code, reason}));
     peer.close_after_sending();
 }
 
-void Exchange::give_up(Connection& peer, Error error) {
+void Switchboard::give_up(Connection& peer, Error error) {
     {
         const std::lock_guard lock(mutex_);
         if (!refusal_) refusal_ = std::move(error);
@@ -348,7 +360,7 @@ void Exchange::give_up(Connection& peer, Error error) {
     mailboxes_.ring();
 }
 
-void Exchange::closed(Connection& peer, const std::string& reason) {
+void Switchboard::closed(Connection& peer, const std::string& reason) {
     std::set<Address> gone;
     bool lost = false;
     {
@@ -364,19 +376,22 @@ void Exchange::closed(Connection& peer, const std::string& reason) {
     if (!gone.empty()) mailboxes_.vanish(gone);
     if (!member_) {
         if (peer.accepted || peer.closing_ms() != 0) return;
-        return notice("a caller at " + peer.where() + " has gone before it was accepted: " + reason + " [caller]");
+        return notice("a caller at " + peer.where() + " has gone before it was accepted: " + reason +
+                      " [caller]");
     }
     thread_->calling = false;
     if (lost)
-        notice("the connection to the Controller at " + where() + " is lost (" + reason + "); connecting again [reconnecting]");
+        notice("the connection to the Controller at " + where() + " is lost (" + reason +
+               "); connecting again [reconnecting]");
     else
-        report_trouble("the Controller at " + where() + " ends the connection before it accepts this process (" +
-                       reason + "); is one of both started with --insecure?");
+        report_trouble("the Controller at " + where() +
+                       " ends the connection before it accepts this process (" + reason +
+                       "); is one of both started with --insecure?");
     thread_->next_call_ms = monotonic_ms() + (lost ? 0 : thread_->retry_ms);
 }
 
 /// Says why there is no connection, once for each reason, and tries again later.
-void Exchange::report_trouble(const std::string& what) {
+void Switchboard::report_trouble(const std::string& what) {
     thread_->calling = false;
     thread_->next_call_ms = monotonic_ms() + thread_->retry_ms;
     thread_->retry_ms = std::min(2 * thread_->retry_ms, kRetryLongest_ms);
@@ -390,7 +405,7 @@ void Exchange::report_trouble(const std::string& what) {
 
 // --- messages
 
-void Exchange::take_message(Connection& peer, std::vector<std::uint8_t> bytes) {
+void Switchboard::take_message(Connection& peer, std::vector<std::uint8_t> bytes) {
     if (!peer.accepted) return refuse(peer, "misbehaves", "it sent a message before its name");
     const Result<EnvelopeEnds> ends = decode_ends(bytes);
     if (!ends) return refuse(peer, "misbehaves", ends.error().message);
@@ -406,8 +421,9 @@ void Exchange::take_message(Connection& peer, std::vector<std::uint8_t> bytes) {
     }
 }
 
-/// The first peer that uses an address owns it, as long as it is connected; its certificate says for which roles.
-bool Exchange::owns(Connection& peer, const Address& from) {
+/// The first peer that uses an address owns it, as long as it is connected; its certificate says for which
+/// roles.
+bool Switchboard::owns(Connection& peer, const Address& from) {
     const Seat seat = peer.session() == nullptr ? Seat::kMember : peer.session()->peer().seat;
     const char* fault = nullptr;
     {
@@ -427,12 +443,12 @@ bool Exchange::owns(Connection& peer, const Address& from) {
     return fault == nullptr;
 }
 
-Exchange::Peer Exchange::way_to(const Address& address) const {
+Switchboard::Peer Switchboard::way_to(const Address& address) const {
     const auto route = routes_.find(address);
     return route == routes_.end() ? controller_ : route->second;
 }
 
-void Exchange::send(const Address& to, std::vector<std::uint8_t> bytes, bool urgent) {
+void Switchboard::send(const Address& to, std::vector<std::uint8_t> bytes, bool urgent) {
     Peer peer;
     {
         const std::lock_guard lock(mutex_);
@@ -441,7 +457,7 @@ void Exchange::send(const Address& to, std::vector<std::uint8_t> bytes, bool urg
     if (peer) peer->send_message(std::move(bytes), urgent);
 }
 
-void Exchange::resume() {
+void Switchboard::resume() {
     const std::lock_guard lock(mutex_);
     for (const Peer& peer : peers_)
         if (peer->paused()) peer->resume();
@@ -449,7 +465,7 @@ void Exchange::resume() {
 
 // --- time
 
-void Exchange::tick() {
+void Switchboard::tick() {
     Thread& t = *thread_;
     const std::int64_t now = monotonic_ms();
     std::vector<Peer> peers;
@@ -458,7 +474,8 @@ void Exchange::tick() {
         peers.assign(peers_.begin(), peers_.end());
     }
     // A process that was stopped reads first what has arrived meanwhile.
-    const bool on_time = t.turned_ms == 0 || now - t.turned_ms < static_cast<std::int64_t>(options_.liveliness_ms) / 2;
+    const bool on_time =
+        t.turned_ms == 0 || now - t.turned_ms < static_cast<std::int64_t>(options_.liveliness_ms) / 2;
     t.turned_ms = now;
     if (on_time)
         for (const Peer& peer : peers) look_after(peer, now);
@@ -474,12 +491,13 @@ void Exchange::tick() {
 }
 
 /// Keys may be revoked while the run goes on: the list is read again when its file changes.
-void Exchange::judge_again(std::int64_t now_ms) {
+void Switchboard::judge_again(std::int64_t now_ms) {
     Thread& t = *thread_;
     if (member_ || options_.keys.empty() || now_ms - t.judged_ms < kJudge_ms) return;
     t.judged_ms = now_ms;
     std::error_code error;
-    const auto changed = std::filesystem::last_write_time(std::filesystem::path(options_.keys) / "revoked", error);
+    const auto changed =
+        std::filesystem::last_write_time(std::filesystem::path(options_.keys) / "revoked", error);
     if (error || changed == t.revoked_changed) return;
     t.revoked_changed = changed;
     const Result<Credentials> keys = read_keys(options_.keys);
@@ -496,10 +514,11 @@ void Exchange::judge_again(std::int64_t now_ms) {
                 revoked.push_back(peer);
     }
     for (const Peer& peer : revoked)
-        refuse(*peer, "bad-certificate", "the certificate of '" + peer->session()->peer().name + "' has been revoked");
+        refuse(*peer, "bad-certificate",
+               "the certificate of '" + peer->session()->peer().name + "' has been revoked");
 }
 
-void Exchange::look_after(const Peer& peer, std::int64_t now_ms) {
+void Switchboard::look_after(const Peer& peer, std::int64_t now_ms) {
     const auto lease = static_cast<std::int64_t>(options_.liveliness_ms);
     if (peer->closing_ms() != 0) {
         if (now_ms - peer->closing_ms() > kFarewell_ms) peer->close("refused");
@@ -512,23 +531,23 @@ void Exchange::look_after(const Peer& peer, std::int64_t now_ms) {
     }
 }
 
-void Exchange::begin_beat(const Address& from, const Address& to, std::vector<std::uint8_t> bytes) {
+void Switchboard::begin_beat(const Address& from, const Address& to, std::vector<std::uint8_t> bytes) {
     const std::lock_guard lock(mutex_);
     beats_[from] = {to, std::move(bytes), monotonic_ms()};
 }
 
-void Exchange::end_beat(const Address& from) {
+void Switchboard::end_beat(const Address& from) {
     const std::lock_guard lock(mutex_);
     beats_.erase(from);
 }
 
-void Exchange::note_own(const Address& from, const Address& to) {
+void Switchboard::note_own(const Address& from, const Address& to) {
     const std::lock_guard lock(mutex_);
     if (const auto beat = beats_.find(from); beat != beats_.end() && beat->second.to == to)
         beat->second.own_ms = monotonic_ms();
 }
 
-void Exchange::send_beats(std::int64_t now_ms) {
+void Switchboard::send_beats(std::int64_t now_ms) {
     std::vector<std::pair<Address, std::vector<std::uint8_t>>> due;
     {
         const std::lock_guard lock(mutex_);
@@ -541,32 +560,32 @@ void Exchange::send_beats(std::int64_t now_ms) {
 
 // --- state for others
 
-bool Exchange::reaches(const Address& address) const {
+bool Switchboard::reaches(const Address& address) const {
     const std::lock_guard lock(mutex_);
     return routes_.contains(address) || (address == kControllerAddress && controller_);
 }
 
-std::optional<Error> Exchange::refusal() const {
+std::optional<Error> Switchboard::refusal() const {
     const std::lock_guard lock(mutex_);
     return refusal_;
 }
 
-bool Exchange::all_sent() const {
+bool Switchboard::all_sent() const {
     const std::lock_guard lock(mutex_);
     return std::ranges::all_of(peers_, [](const Peer& peer) { return !peer->accepted || peer->all_sent(); });
 }
 
-void Exchange::notice(std::string line) {
+void Switchboard::notice(std::string line) {
     const std::lock_guard lock(mutex_);
     if (notices_.size() < kNoticesMost) notices_.push_back(std::move(line));
 }
 
-std::vector<std::string> Exchange::take_notices() {
+std::vector<std::string> Switchboard::take_notices() {
     const std::lock_guard lock(mutex_);
     return std::exchange(notices_, {});
 }
 
-std::string Exchange::where() const {
+std::string Switchboard::where() const {
     const std::lock_guard lock(mutex_);
     return where_;
 }
