@@ -181,9 +181,9 @@ void start_at_keyframe(const std::string& wanted, const Document& document, Robo
     }
     const Element* key = find_key(keys, wanted);
     if (key == nullptr) {
-        diagnostics.error(document.root().where(), "no-keyframe", "the file has no keyframe '" + wanted + "'",
-                          keys.empty() ? "It has none: leave it out."
-                                       : "Its keyframes: " + names_of(keys) + ".");
+        diagnostics.error(
+            document.root().where(), "no-keyframe", "the file has no keyframe '" + wanted + "'",
+            keys.empty() ? "It has none: leave it out." : "Its keyframes: " + names_of(keys) + ".");
         return;
     }
     KeyReader(*key, robots, diagnostics).read();

@@ -141,8 +141,7 @@ constexpr LeftOut kLeftOut[] = {
 /// Elements that other parts of the importer tell about, or that stand in sections which they read by name.
 constexpr std::string_view kElsewhere[] = {"asset",       "contact",  "actuator", "sensor",   "include",
                                            "composite",   "flexcomp", "layer",    "adhesion", "cylinder",
-                                           "orientation", "pid",      "dcmotor",  "tendon",
-                                           "keyframe"};
+                                           "orientation", "pid",      "dcmotor",  "tendon",   "keyframe"};
 
 bool has_word(std::string_view list, std::string_view word) {
     const auto words = xml::words_of(list);

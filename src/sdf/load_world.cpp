@@ -213,9 +213,10 @@ std::optional<World> load(std::unique_ptr<SourceFile> file, const LoadOptions& o
     if (std::string(file->root().name()) == "mujoco")
         return load_mjcf(std::move(file), {options.search_paths, options.looks, options.keyframe}, found);
     if (!options.keyframe.empty())
-        found.error(file->where(file->root()), "no-keyframe",
-                    "the file has no keyframe '" + options.keyframe + "': only files of MuJoCo have keyframes",
-                    "Leave it out; a <state> of SDFormat says where a world starts.");
+        found.error(
+            file->where(file->root()), "no-keyframe",
+            "the file has no keyframe '" + options.keyframe + "': only files of MuJoCo have keyframes",
+            "Leave it out; a <state> of SDFormat says where a world starts.");
     make_models_of_actors(file->root());
     return WorldLoader(options, found).load(std::move(file));
 }

@@ -108,15 +108,17 @@ double fastest_centre(const RobotType& type, const RobotState& state, Mechanics<
 double soft_speed(const RobotType& type) {
     double speed = 0;
     for (const BodyShape& shape : type.shapes)
-        if (shape.material.stiffness > 0)
-            speed = std::fmax(speed, shape.material.correction_speed);
+        if (shape.material.stiffness > 0) speed = std::fmax(speed, shape.material.correction_speed);
     return speed;
 }
 
 class Judge {
   public:
     Judge(const Model& model, const Model& awake)
-        : model_(model), awake_(awake), stepper_(model, initial_states(model)), summer_(model),
+        : model_(model),
+          awake_(awake),
+          stepper_(model, initial_states(model)),
+          summer_(model),
           courses_(model.robots.size()) {
         touching_.reset(courses_.size());
         for (std::size_t r = 0; r < courses_.size(); ++r) {
@@ -168,7 +170,8 @@ class Judge {
             Course& course = courses_[r];
             const RobotState& state = stepper_.states()[r];
             const test::MechanicalSums sums = summer_.of(RobotId(r), state);
-            course.highest = course.unexplained.empty() ? sums.potential : std::fmax(course.highest, sums.potential);
+            course.highest =
+                course.unexplained.empty() ? sums.potential : std::fmax(course.highest, sums.potential);
             course.unexplained.push_back(sums.energy() - course.work);
             course.fallen.push_back(course.highest - sums.potential);
             course.speed = std::fmax(course.speed, fastest_centre(model_.type_of(RobotId(r)), state, at_));
@@ -183,7 +186,8 @@ class Judge {
         for (const std::vector<std::size_t>& group : members)
             if (!group.empty()) sanity.groups.push_back(figures(group, moved));
         std::ranges::stable_sort(sanity.groups, [](const Figures& a, const Figures& b) {
-            return std::pair(!a.is_sane(), a.gain - a.explained) > std::pair(!b.is_sane(), b.gain - b.explained);
+            return std::pair(!a.is_sane(), a.gain - a.explained) >
+                   std::pair(!b.is_sane(), b.gain - b.explained);
         });
     }
 
@@ -208,10 +212,11 @@ class Judge {
                 gain += courses_[r].unexplained[k + 1] - courses_[r].unexplained.front();
                 fallen += courses_[r].fallen[k + 1];
             }
-            // What lies in each other is raised by its depth, one on top of the other; soft surfaces part at a
-            // speed, of the common centre and of the parts against each other.
+            // What lies in each other is raised by its depth, one on top of the other; soft surfaces part at
+            // a speed, of the common centre and of the parts against each other.
             const double raised = norm(model_.gravity) * f.depth * static_cast<double>(group.size()),
-                         explained = raised + (f.depth > 0 ? soft * soft : 0) + kFallErrorMost * fallen / mass;
+                         explained =
+                             raised + (f.depth > 0 ? soft * soft : 0) + kFallErrorMost * fallen / mass;
             if (k > 0 && gain / mass - explained <= f.gain - f.explained) continue;
             f.gain = gain / mass, f.explained = explained, f.time_s = times_[k];
         }
@@ -233,7 +238,8 @@ class Judge {
             forward_kinematics<double>(type, states[r].q, was);
             forward_kinematics<double>(type, on.states()[r].q, is);
             for (std::size_t b = 0; b < type.bodies.size(); ++b)
-                moved[r] = std::fmax(moved[r], norm(is.origin + is.bodies[b].centre - was.origin - was.bodies[b].centre));
+                moved[r] = std::fmax(
+                    moved[r], norm(is.origin + is.bodies[b].centre - was.origin - was.bodies[b].centre));
         }
         return moved;
     }

@@ -39,15 +39,10 @@ bool parse(int argc, char** argv, Options& o) {
 }
 
 nlohmann::json to_json(const roboss::corpus::Figures& f) {
-    return {{"robot", f.robot},
-            {"gain", f.gain},
-            {"explained", f.explained},
-            {"time_s", f.time_s},
-            {"speed", f.speed},
-            {"depth", f.depth},
-            {"sleeper_moves", f.sleeper_moves},
-            {"driven", f.driven},
-            {"sane", f.is_sane()}};
+    return {
+        {"robot", f.robot},   {"gain", f.gain},   {"explained", f.explained},         {"time_s", f.time_s},
+        {"speed", f.speed},   {"depth", f.depth}, {"sleeper_moves", f.sleeper_moves}, {"driven", f.driven},
+        {"sane", f.is_sane()}};
 }
 
 }  // namespace
@@ -78,12 +73,9 @@ int main(int argc, char** argv) {
     std::set<std::uint32_t> types;  // that a step tells apart
     for (std::size_t r = 0; r < model->robots.size(); ++r) types.insert(model->like(RobotId(r)).value);
     const corpus::Sanity sanity = corpus::judge(*model, *awake, o.seconds);
-    nlohmann::json out{{"sane", sanity.is_sane()},
-                       {"robots", sanity.robots},
-                       {"types", types.size()},
-                       {"types_by_content", model->types.size()},
-                       {"asleep", sanity.asleep},
-                       {"not_finite_s", sanity.not_finite_s},
+    nlohmann::json out{{"sane", sanity.is_sane()},        {"robots", sanity.robots},
+                       {"types", types.size()},           {"types_by_content", model->types.size()},
+                       {"asleep", sanity.asleep},         {"not_finite_s", sanity.not_finite_s},
                        {"worst", nlohmann::json::array()}};
     for (const corpus::Figures& f : sanity.groups)
         if (out["worst"].size() < 5) out["worst"].push_back(to_json(f));

@@ -120,7 +120,8 @@ bool Run::fail(const Error& why) {
 bool Run::prepare() {
     if (!o_.replay.empty()) return prepare_replay();
     Diagnostics diagnostics;
-    std::optional<World> world = load_world(o_.world, {o_.paths, o_.profile, is_shown(), o_.keyframe}, diagnostics);
+    std::optional<World> world =
+        load_world(o_.world, {o_.paths, o_.profile, is_shown(), o_.keyframe}, diagnostics);
     const auto refused = [&] { return o_.strict ? diagnostics.has_errors() : diagnostics.refuses(); };
     if (world)
         if (Result<> completed = complete(*world, o_.bare); !completed)
@@ -281,7 +282,8 @@ SimulationOptions Run::simulation_options(const SavedRun* from) {
 Result<ModelVisuals::Worlds> Run::seen_worlds(const Model& model) {
     if (!is_shown() && world_model_ && !visuals_.begun()) {
         Diagnostics diagnostics;
-        std::optional<World> world = load_world(o_.world, {o_.paths, o_.profile, true, o_.keyframe}, diagnostics);
+        std::optional<World> world =
+            load_world(o_.world, {o_.paths, o_.profile, true, o_.keyframe}, diagnostics);
         if (!world)
             return Error{"the world file " + o_.world + ", which has the visuals, cannot be read any more",
                          "put it back (`roboss check` says what is wrong with it)", "no-look"};

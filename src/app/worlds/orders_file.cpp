@@ -41,8 +41,8 @@ class LineFaults {
     }
     /// Whether any is an error: then the line gives no order.
     bool refuse() const {
-        return std::ranges::any_of(
-            kinds_, [](const Kind& kind) { return kind.fault.severity == Severity::kError; });
+        return std::ranges::any_of(kinds_,
+                                   [](const Kind& kind) { return kind.fault.severity == Severity::kError; });
     }
     void report(const SourceLocation& where, Diagnostics& diagnostics) const {
         for (const Kind& kind : kinds_)

@@ -14,8 +14,8 @@ namespace roboss {
 /// "attach", "detach"} lines, and {"t": s, "publish": {"topic": ..., ...}}, which commands all who take that
 /// topic; "robot" may be a pattern (find_robots()): one order for each, by RobotId. Empty lines and lines
 /// that start with # are skipped. Every fault is a diagnostic with file and line: an error, or a warning if
-/// the joint has no effort; that of several robots of a pattern is one. The orders that are right are returned. The lower 32 bits of `sequence` are the
-/// line.
+/// the joint has no effort; that of several robots of a pattern is one. The orders that are right are
+/// returned. The lower 32 bits of `sequence` are the line.
 std::vector<Order> load_orders(const std::string& file, const Model& model, Diagnostics& diagnostics);
 
 /// The same from text; `file` is only named in the diagnostics.

@@ -229,9 +229,10 @@ TEST(Start, AnUnknownKeyframeIsAnErrorThatNamesThoseThatExist) {
         EXPECT_TRUE(told);
     }
     Diagnostics diagnostics;
-    at_keyframe("<mujoco><worldbody><body><joint/><geom size='1'/></body></worldbody><keyframe><key qpos='1 "
-                "2'/></keyframe></mujoco>",
-                "0", diagnostics);
+    at_keyframe(
+        "<mujoco><worldbody><body><joint/><geom size='1'/></body></worldbody><keyframe><key qpos='1 "
+        "2'/></keyframe></mujoco>",
+        "0", diagnostics);
     EXPECT_TRUE(diagnostics.has_errors());
 }
 

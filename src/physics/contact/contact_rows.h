@@ -64,7 +64,7 @@ inline constexpr double kTakenOver =
     0.1;  // of the speed of recovery: how fast a spring takes over an overlap
 /// What pushes apart turns no joint faster than this, where a contact has hardly a lever on a light link.
 inline constexpr double kPushedTurn = 20;  // rad/s, or m/s of a slide
-inline constexpr double kDeep = 2e-4;  // m of penetration beyond the slop
+inline constexpr double kDeep = 2e-4;      // m of penetration beyond the slop
 inline constexpr double kCorrectionShare = 0.3,
                         kDeepCorrectionShare =
                             0.1;  // of the penetration beyond the slop and, of that, beyond kDeep, in a tick
@@ -215,8 +215,7 @@ bool set_softness(const ContactT<T>& c, const SurfacePair& surface, const T& app
     if (1.0 / (dt * dt * soft.stiffness + dt * soft.damping) < rigid) return false;
     constexpr double kSlowest = 1e-9;  // m/s
     const T most = T(kSoftBlow / std::sqrt(soft.stiffness * inverse_effective_mass)),
-            depth = larger(-c.gap, T(0)),
-            turning = T(kPushedTurn) * longest_lever(columns, row),
+            depth = larger(-c.gap, T(0)), turning = T(kPushedTurn) * longest_lever(columns, row),
             speed = larger(smaller(T(surface.correction_speed), turning), T(kSlowest)),
             bears = T(kWeights * gravity / (soft.stiffness * inverse_effective_mass));
     const T unsprung = depth - sprung_depth(c, surface, depth, approach, dt, speed, bears),
@@ -342,8 +341,7 @@ MaskOf<T> add_contact_row(const Model& model, const ContactT<T>& c, const Surfac
         select(loaded | !hits, T(loaded_compliance<T>(model.accuracy)), T(new_compliance<T>(model.accuracy)));
     row.normal.high = std::numeric_limits<double>::infinity();
     row.normal.impulse = c.impulse;
-    row.soft = contact::set_softness(c, surface, approach, dt, inverse_effective_mass,
-                                     norm(model.gravity),
+    row.soft = contact::set_softness(c, surface, approach, dt, inverse_effective_mass, norm(model.gravity),
                                      inverse_effective_mass * bounce_compliance<T>(model.accuracy),
                                      rows.columns, row);
     MaskOf<T> split = false;
