@@ -1,5 +1,5 @@
-// Soft contacts of shapes that lie in each other by no motion of theirs: how far their springs take that over,
-// and how fast they push apart.
+// Soft contacts of shapes that lie in each other by no motion of theirs: how far their springs take that
+// over, and how fast they push apart.
 #include <gtest/gtest.h>
 
 #include "physics/contact/contact_rows.h"
