@@ -186,8 +186,8 @@ NormalTargets<T> impact(const ContactT<T>& c, const SurfacePair& surface, const 
 /// contact that is new made what it approached by; one that is remembered has the share that its load keeps,
 /// but no more than the force of its last tick shows (an order may have moved it since). The rest of the
 /// overlap was there at the start. It is taken over so slowly that a contact at rest becomes a plain spring,
-/// and nothing is thrown; and not beyond `bears`, what a load compresses it by: links that are jammed in each
-/// other would store what throws them once they come free.
+/// and nothing is thrown; and only if it is no more than `bears`, what a load compresses it by: links that are
+/// jammed in each other would store what throws them once they come free.
 template <class T>
 T sprung_depth(const ContactT<T>& c, const SurfacePair& surface, const T& depth, const T& approach, double dt,
                const T& speed, const T& bears) {
@@ -196,7 +196,7 @@ T sprung_depth(const ContactT<T>& c, const SurfacePair& surface, const T& depth,
     const T kept = depth * (c.load / c.impulse),
             shown = (c.impulse / T(dt) - T(soft.damping) * approach) / T(soft.stiffness),
             made = select(known, larger(smaller(kept, shown), T(0)), larger(approach, T(0)) * T(dt));
-    return smaller(depth, larger(made, smaller(made + T(kTakenOver * dt) * speed, bears)));
+    return smaller(depth, made + select(depth - made <= bears, T(kTakenOver * dt) * speed, T(0)));
 }
 
 /// A spring and damper taken implicitly: force = stiffness * depth - damping * u with the depth and the
