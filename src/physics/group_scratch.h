@@ -17,10 +17,10 @@
 
 namespace roboss {
 
-/// A robot of a group that goes in lanes with those of its kind, beside those that touch with as many points
-/// of the same shapes.
+/// A robot of a group that goes in lanes with those of its kind: of one type, with contacts of the same
+/// shapes.
 struct LaneMember {
-    std::uint64_t kind = 0, touch = 0;
+    std::uint64_t kind = 0;
     std::uint32_t robot = 0;
     friend auto operator<=>(const LaneMember&, const LaneMember&) = default;
 };

@@ -8,8 +8,6 @@
 
 #include "core/check.h"
 #include "core/hash.h"
-#include "physics/dynamics/lone_body.h"
-#include "physics/lanes/lane_contacts.h"
 #include "physics/step_failure.h"
 
 namespace roboss {
@@ -174,21 +172,13 @@ bool RobotGroup::goes_in_lanes(std::span<const std::uint32_t> members) const {
     return (robots_.size() > 1 && touches_one_thing(contacts_of(members[0], s_.contacts)));
 }
 
-/// Robots with joints of one type share lanes if they touch the same scenery, or nothing; free bodies if they
-/// have contacts alike. Other ones may share a kind by chance, and lanes will notice.
-LaneMember RobotGroup::lane_member(std::uint32_t robot) const {
-    const std::span<const Contact> contacts = contacts_of(robot, s_.contacts);
+/// Robots of equal kinds have contacts alike; other ones may share a kind by chance, and lanes will notice.
+std::uint64_t RobotGroup::lane_kind(std::uint32_t robot) const {
     Hash kind;
     kind.add(static_cast<std::uint64_t>(call_.model.like(robots_[robot].id).index()));
-    kind.add(std::uint64_t{contacts.empty() ? LaneContacts::kNothing : contacts[0].shape_b});
-    if (is_free_body(*robots_[robot].type))
-        for (const Contact& c : contacts) kind.add(std::uint64_t{c.shape_a} << 32 | c.shape_b);
-    // As digits of a number, how often each shape touches.
-    constexpr unsigned kBits = 3, kDigits = 21;
-    std::uint64_t touch = 0;
-    for (const Contact& c : contacts)
-        touch += std::uint64_t{1} << kBits * (kDigits - 1 - c.shape_a % kDigits);
-    return {kind.value(), touch, robot};
+    for (const Contact& c : contacts_of(robot, s_.contacts))
+        kind.add(std::uint64_t{c.shape_a} << 32 | c.shape_b);
+    return kind.value();
 }
 
 void RobotGroup::report() {

@@ -46,7 +46,7 @@ class RobotGroup {
 
   private:
     bool goes_in_lanes(std::span<const std::uint32_t> members) const;
-    LaneMember lane_member(std::uint32_t robot) const;
+    std::uint64_t lane_kind(std::uint32_t robot) const;
     Team team() const;
     void start_islands();
     std::size_t count_large();
@@ -84,7 +84,7 @@ void RobotGroup::for_each_contact_island(StepIsland&& step, StageClock& clock) {
             if (team().size() == 1) return step_one(members);
             return s_.waiting.push_back(members);
         }
-        s_.lane_members.push_back(lane_member(members[0]));
+        s_.lane_members.push_back({lane_kind(members[0]), members[0]});
     });
     std::ranges::sort(s_.lane_members);
     for (std::size_t k = 0; k < s_.lane_members.size(); ++k) {

@@ -215,7 +215,9 @@ TEST(Start, WithoutAKeyframeBodiesStandWhereTheyAre) {
     EXPECT_EQ(state.q[2], 1);
     EXPECT_NEAR(state.q[7], 0.2, 1e-15);
     for (const Diagnostic& d : diagnostics.items())
-        if (d.code == "keyframe") EXPECT_NE(d.message.find("lie, jump"), std::string::npos) << d.message;
+        if (d.code == "keyframe") {
+            EXPECT_NE(d.message.find("lie, jump"), std::string::npos) << d.message;
+        }
 }
 
 TEST(Start, AnUnknownKeyframeIsAnErrorThatNamesThoseThatExist) {

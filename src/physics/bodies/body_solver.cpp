@@ -381,7 +381,7 @@ double BodySolver::update_bounds() {
     const double error = friction_error();
     for (BodyPoint& p : island_.points)
         if (p.coefficient != 0)
-            friction::update_bound(p.coefficient * p.f_n, true, p.bound, p.bound_error, p.relaxation);
+            friction::update_bound(p.coefficient * p.f_n, p.bound, p.bound_error, p.relaxation);
     return error;
 }
 

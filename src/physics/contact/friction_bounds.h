@@ -6,19 +6,16 @@
 namespace roboss {
 namespace friction {
 
-/// Moves a friction bound, where `some`, towards what the normal impulse allows. Where more friction means
-/// less pressure the plain update swings for ever between two values, so a swing that hardly shrinks halves
-/// the step.
+/// Moves a friction bound towards what the normal impulse allows. Where more friction means less pressure the
+/// plain update swings for ever between two values, so a swing that hardly shrinks halves the step.
 template <class T>
-void update_bound(const T& wanted, const MaskOf<T>& some, T& bound, T& last_error, T& relaxation) {
+void update_bound(const T& wanted, T& bound, T& last_error, T& relaxation) {
     constexpr double kSlowest = 0.05, kRecovery = 1.2;
     const T error = wanted - bound;
     const MaskOf<T> swings = (error * last_error < T(0)) & (magnitude(error) > 0.8 * magnitude(last_error));
-    const T share =
-        select(swings, larger(0.5 * relaxation, T(kSlowest)), smaller(kRecovery * relaxation, T(1)));
-    relaxation = select(some, share, relaxation);
-    last_error = select(some, error, last_error);
-    bound = select(some, bound + share * error, bound);
+    relaxation = select(swings, larger(0.5 * relaxation, T(kSlowest)), smaller(kRecovery * relaxation, T(1)));
+    last_error = error;
+    bound += relaxation * error;
 }
 
 /// Change of the disc's impulse if its bound became that of the normal impulse.
@@ -61,32 +58,32 @@ BoundError<T> bound_error(const IslandRowsT<T>& rows) {
 }
 
 template <class T>
-void update_disc(FrictionDiscT<T>& disc, const T& normal_impulse, const MaskOf<T>& some) {
+void update_disc(FrictionDiscT<T>& disc, const T& normal_impulse) {
     if (disc.coefficient == 0) return;
-    update_bound<T>(disc.coefficient * normal_impulse, some, disc.bound, disc.bound_error, disc.relaxation);
+    update_bound(disc.coefficient * normal_impulse, disc.bound, disc.bound_error, disc.relaxation);
 }
 
-/// All friction bounds, where `some`, follow the normal impulses; returns their error before that.
+/// All friction bounds follow the normal impulses; returns their error before that.
 template <class T>
-T update_bounds(IslandRowsT<T>& rows, const MaskOf<T>& some = true) {
+T update_bounds(IslandRowsT<T>& rows) {
     BoundError<T> error;
     for (ContactRowT<T>& row : rows.contacts) {
         error.add(row);
-        update_disc<T>(row.slip, row.normal.impulse, some);
+        update_disc(row.slip, row.normal.impulse);
     }
     for (AngularRowT<T>& row : rows.angulars) {
         const T normal = rows.contacts[row.contact].normal.impulse;
         error.add(row, normal);
         if (row.torsional > 0) {
-            update_bound<T>(row.torsional * normal, some, row.spin.high, row.spin_error, row.spin_relaxation);
+            update_bound(row.torsional * normal, row.spin.high, row.spin_error, row.spin_relaxation);
             row.spin.low = -row.spin.high;
         }
-        if (row.roll.coefficient > 0) update_disc<T>(row.roll, normal, some);
+        if (row.roll.coefficient > 0) update_disc(row.roll, normal);
     }
     return error.relative();
 }
 
-/// All friction bounds, and back where `some`.
+/// All friction bounds, and back.
 template <class T>
 void keep_bounds(IslandRowsT<T>& rows, std::vector<T>& bounds) {
     bounds.clear();
@@ -94,49 +91,41 @@ void keep_bounds(IslandRowsT<T>& rows, std::vector<T>& bounds) {
     for (const AngularRowT<T>& row : rows.angulars) bounds.push_back(row.spin.high);
 }
 template <class T>
-void set_bounds(IslandRowsT<T>& rows, const std::vector<T>& bounds, const MaskOf<T>& some = true) {
-    const T* bound = bounds.data();
-    for_each_disc(rows, [&](FrictionDiscT<T>& disc) { disc.bound = select(some, *bound++, disc.bound); });
-    for (AngularRowT<T>& row : rows.angulars) {
-        row.spin.high = select(some, *bound++, row.spin.high);
-        row.spin.low = -row.spin.high;
-    }
+void set_bounds(IslandRowsT<T>& rows, const std::vector<T>& bounds) {
+    std::size_t at = 0;
+    for_each_disc(rows, [&](FrictionDiscT<T>& disc) { disc.bound = bounds[at++]; });
+    for (AngularRowT<T>& row : rows.angulars) row.spin.high = bounds[at++], row.spin.low = -row.spin.high;
 }
 
-/// Every friction bound, where `some`, as the normal impulse says: normal_of(c) of contact c.
+/// Every friction bound as the normal impulse says: normal_of(c) of contact c.
 template <class T, class NormalOf>
-void fit_bounds(IslandRowsT<T>& rows, const NormalOf& normal_of, const MaskOf<T>& some = true) {
-    for (std::size_t c = 0; c < rows.contacts.size(); ++c) {
-        FrictionDiscT<T>& slip = rows.contacts[c].slip;
-        slip.bound = select(some, slip.coefficient * normal_of(c), slip.bound);
-    }
+void fit_bounds(IslandRowsT<T>& rows, const NormalOf& normal_of) {
+    for (std::size_t c = 0; c < rows.contacts.size(); ++c)
+        rows.contacts[c].slip.bound = rows.contacts[c].slip.coefficient * normal_of(c);
     for (AngularRowT<T>& row : rows.angulars) {
         const T impulse = normal_of(row.contact);
-        row.roll.bound = select(some, row.roll.coefficient * impulse, row.roll.bound);
-        row.spin.high = select(some, row.torsional * impulse, row.spin.high), row.spin.low = -row.spin.high;
+        row.roll.bound = row.roll.coefficient * impulse;
+        row.spin.high = row.torsional * impulse, row.spin.low = -row.spin.high;
     }
 }
 
 /// The same of the normal impulses at the present velocity.
 template <class T>
-void tie_bounds(IslandRowsT<T>& rows, const MaskOf<T>& some = true) {
-    fit_bounds(
-        rows,
-        [&](std::size_t c) {
-            const BoundedRowT<T>& normal = rows.contacts[c].normal;
-            return impulse_at(normal, normal.u);
-        },
-        some);
+void tie_bounds(IslandRowsT<T>& rows) {
+    fit_bounds(rows, [&](std::size_t c) {
+        const BoundedRowT<T>& normal = rows.contacts[c].normal;
+        return impulse_at(normal, normal.u);
+    });
 }
 
-/// Derivatives of sliding friction by the normal velocity, where `some`; true where anything slides.
+/// Derivatives of sliding friction by the normal velocity; true where anything slides.
 template <class T>
-MaskOf<T> couple_bounds(IslandRowsT<T>& rows, const MaskOf<T>& some = true) {
+MaskOf<T> couple_bounds(IslandRowsT<T>& rows) {
     using std::sqrt;
     MaskOf<T> slides = false;
     for (ContactRowT<T>& row : rows.contacts) {
         FrictionDiscT<T>& disc = row.slip;
-        const MaskOf<T> pressed = some & (!equal(row.normal.d, T(0))) & (disc.bound > T(0));
+        const MaskOf<T> pressed = (!equal(row.normal.d, T(0))) & (disc.bound > T(0));
         if (!any(pressed)) continue;
         if constexpr (std::is_same_v<T, double>) {
             if (slip_disc::slips(disc)) {

@@ -239,21 +239,5 @@ TEST(Terrain, RoversOnHillsHaveTheSameBitsInLanes) {
         }
 }
 
-/// They are of use there: wheels in the air, on a face or across a ridge share a register.
-TEST(Terrain, RoversOnHillsStayInTheirLanes) {
-    for (const std::size_t width : kWidths) {
-        if (!has_lanes(Precision::kDouble, width)) continue;
-        const CollisionSpec ground = ground_of(Ground::kHeightField, 10, 25, hilly);
-        Simulation sim(rovers_on(ground, Wheel::kCylinder, static_cast<int>(width), 0.4));
-        for (int i = 0; i < 250; ++i) drive(sim, Wheel::kCylinder), sim.step();
-        StepReport report;
-        constexpr int kTicks = 250;
-        const int stepped = step_only_in_lanes(sim, Precision::kDouble, width, kTicks, report);
-        const double share = stepped / (static_cast<double>(kTicks) * static_cast<double>(width));
-        tell("share of steps in " + std::to_string(width) + " lanes", share);
-        EXPECT_GT(share, 0.8);
-    }
-}
-
 }  // namespace
 }  // namespace roboss::test

@@ -2,9 +2,7 @@
 #include "physics/lanes/lane_contacts.h"
 
 #include <algorithm>
-#include <utility>
-
-#include "physics/dynamics/lone_body.h"
+#include <bit>
 
 namespace roboss {
 namespace {
@@ -12,10 +10,6 @@ namespace {
 /// Where on the shapes they touch is a matter of each lane.
 bool same_pair(const Contact& a, const Contact& b) {
     return a.shape_a == b.shape_a && a.shape_b == b.shape_b;
-}
-
-std::pair<std::uint32_t, std::uint32_t> pair_of(const Contact& c) {
-    return {c.shape_a, c.shape_b};
 }
 
 unsigned bit(std::size_t lane) {
@@ -79,62 +73,22 @@ ContactMemory* LaneContacts::memory_for(std::size_t count, RobotState& state) {
     return state.contacts.data();
 }
 
-unsigned LaneContacts::share(const Model& model, const RobotType& type, unsigned present) {
-    const auto is_rough = [&](const Contact& c) {
-        return !is_plain(model, type.shapes[c.shape_a], c.shape_b);
+unsigned LaneContacts::alike(const Model& model, const RobotType& type, unsigned present) const {
+    const auto plain_contact = [&](const Contact& c) {
+        return is_plain(model, type.shapes[c.shape_a], c.shape_b);
     };
-    unsigned touching = 0;
-    for (std::size_t lane = 0; lane < spans_.size(); ++lane) {
-        if ((present & bit(lane)) == 0) continue;
-        if (std::ranges::any_of(spans_[lane], is_rough)) present &= ~bit(lane);
-        if (!spans_[lane].empty()) touching |= bit(lane);
-    }
-    touching &= present;
-    if (is_free_body(type))
-        present = alike(present);
-    else
-        present = 2 * std::popcount(touching) >= std::popcount(present) ? touching : present & ~touching;
-    find_slots(present);
-    return present;
-}
-
-/// Lanes with the same pairs of shapes, point by point: as many as there are.
-unsigned LaneContacts::alike(unsigned present) const {
     unsigned best = 0, unseen = present;
     while (std::popcount(unseen) > std::popcount(best)) {
-        const std::size_t first = first_of(unseen);
+        const auto first = static_cast<std::size_t>(std::countr_zero(unseen));
         unsigned like_first = 0;
         for (std::size_t lane = first; lane < spans_.size(); ++lane)
             if ((unseen & bit(lane)) != 0 && std::ranges::equal(spans_[lane], spans_[first], same_pair))
                 like_first |= bit(lane);
         unseen &= ~like_first;
-        if (std::popcount(like_first) > std::popcount(best)) best = like_first;
+        const bool plain = std::ranges::all_of(spans_[first], plain_contact);
+        if (plain && std::popcount(like_first) > std::popcount(best)) best = like_first;
     }
     return best;
-}
-
-/// The contacts of a lane ascend by pairs of shapes, and so do the slots.
-void LaneContacts::find_slots(unsigned present) {
-    slots_.clear();
-    std::array<std::uint32_t, kMostLanes> next{};  // by lane: its first contact without a slot
-    const auto waits = [&](std::size_t lane) {
-        return (present & bit(lane)) != 0 && next[lane] < spans_[lane].size();
-    };
-    for (;;) {
-        const Contact* least = nullptr;
-        for (std::size_t lane = 0; lane < spans_.size(); ++lane) {
-            if (!waits(lane)) continue;
-            const Contact& c = spans_[lane][next[lane]];
-            if (least == nullptr || pair_of(c) < pair_of(*least)) least = &c;
-        }
-        if (least == nullptr) return;
-        Slot& slot = slots_.emplace_back();
-        for (std::size_t lane = 0; lane < spans_.size(); ++lane) {
-            if (!waits(lane) || !same_pair(spans_[lane][next[lane]], *least)) continue;
-            slot.lanes |= bit(lane);
-            slot.at[lane] = next[lane]++;
-        }
-    }
 }
 
 void LaneContacts::remember(const Model& model, std::size_t lane, StepReport& report) {

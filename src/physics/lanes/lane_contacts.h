@@ -1,9 +1,7 @@
-// What is done lane by lane around a step in lanes: finding the contacts, and telling which lanes have which
-// of them. Compiled for every processor, unlike lane_step.h.
+// What is done lane by lane around a step in lanes: finding the contacts, and telling which lanes have the
+// same. Compiled for every processor, unlike lane_step.h.
 #pragma once
 
-#include <array>
-#include <bit>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -41,37 +39,19 @@ class LaneContacts {
 
     /// Contacts found elsewhere.
     void take(std::size_t lane, std::span<Contact> contacts) { spans_[lane] = contacts; }
-    /// Finds the slots of the lanes `present`: contact points of a pair of shapes, as many as one of the
-    /// lanes has. Returns the lanes that share them: of robots with joints those whose surfaces are plain and
-    /// that touch something, as most do, or nothing; of free bodies those that have as many points of each
-    /// pair as most.
-    unsigned share(const Model& model, const RobotType& type, unsigned present);
+    /// Those of the lanes `present` that have as many contact points of the same shapes as the first, or as
+    /// another if that are more; none if a surface is not plain.
+    unsigned alike(const Model& model, const RobotType& type, unsigned present) const;
 
-    std::size_t slots() const { return slots_.size(); }
-    /// Bit i: lane i has a contact there.
-    unsigned in_slot(std::size_t slot) const { return slots_[slot].lanes; }
-    /// A lane's contact there; one of another lane's if it has none.
-    Contact& contact(std::size_t lane, std::size_t slot) {
-        const std::size_t own = (slots_[slot].lanes >> lane & 1u) != 0 ? lane : first_of(slots_[slot].lanes);
-        return spans_[own][slots_[slot].at[own]];
-    }
+    std::size_t count(std::size_t lane) const { return spans_[lane].size(); }
+    Contact& contact(std::size_t lane, std::size_t i) { return spans_[lane][i]; }
     /// Writes the solved contacts of a lane, found here, into its state and the report.
     void remember(const Model& model, std::size_t lane, StepReport& report);
 
   private:
-    struct Slot {
-        unsigned lanes = 0;
-        std::array<std::uint32_t, kMostLanes> at{};  // by lane, among its contacts
-    };
-
-    static std::size_t first_of(unsigned lanes) { return static_cast<std::size_t>(std::countr_zero(lanes)); }
-    unsigned alike(unsigned present) const;
-    void find_slots(unsigned present);
-
     std::vector<RobotWork> works_;
     std::vector<std::vector<Contact>> contacts_;
     std::vector<std::span<Contact>> spans_;  // the same, or those found elsewhere
-    std::vector<Slot> slots_;
     ContactFinder finder_;
     std::vector<std::uint32_t> scenery_;
 };

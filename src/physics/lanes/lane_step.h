@@ -17,9 +17,10 @@
 #include "physics/dynamics/lone_body.h"
 #include "physics/dynamics/warm_start.h"
 #include "physics/lanes/lane_contacts.h"
-#include "physics/lanes/lane_newton.h"
 #include "physics/lanes/lane_state.h"
 #include "physics/sleep.h"
+#include "physics/solver/newton.h"
+#include "physics/solver/tree_hessian.h"
 #include "physics/tick.h"
 
 namespace roboss {
@@ -134,9 +135,9 @@ class LaneStep final : public LaneStepper {
                 if (!found_.find(model, lane)) together.leave(lane);
             }
         }
-        leave(~found_.share(model, *work_.type, together.present()), together);
+        leave(~found_.alike(model, *work_.type, together.present()), together);
         if (!together.any()) return false;
-        take_contacts(model);
+        take_contacts(model, together);
         return true;
     }
 
@@ -283,15 +284,16 @@ class LaneStep final : public LaneStepper {
         }
     }
 
-    /// What all lanes have in common from one of them, the rest lane by lane.
-    void take_contacts(const Model& model) {
-        contacts_.resize(found_.slots()), surfaces_.clear(), velocities_.clear();
+    /// What all lanes have in common from the first of them, the rest lane by lane.
+    void take_contacts(const Model& model, const Lockstep<T>& together) {
+        const auto first = static_cast<std::size_t>(std::countr_zero(together.present()));
+        contacts_.resize(found_.count(first)), surfaces_.clear(), velocities_.clear();
         for (std::size_t c = 0; c < contacts_.size(); ++c) {
-            const Contact& all = found_.contact(0, c);
+            const Contact& all = found_.contact(first, c);
             contacts_[c].body_a = all.body_a;
             surfaces_.push_back(found_.plain_surface(model, work_.type->shapes[all.shape_a], all.shape_b));
             for (std::size_t i = 0; i < kLanesOf<T>; ++i) {
-                const Contact& from = found_.contact(i, c);
+                const Contact& from = found_.contact(is_in(together, i) ? i : first, c);
                 set_lanes(point_, i, from.p_W);
                 take_contact(i, from, contacts_[c]);
             }
@@ -324,36 +326,16 @@ class LaneStep final : public LaneStepper {
         split_ = add_tree_rows(model, type, joints, 0, together, rows_.joints);
         for (std::size_t c = 0; c < contacts_.size(); ++c) {
             const ContactT<T>& contact = contacts_[c];
-            Mask split =
-                add_contact_row<T>(model, contact, surfaces_[c], {&work_, contact.body_a, 0}, nullptr, rows_);
+            split_ = split_ | add_contact_row<T>(model, contact, surfaces_[c], {&work_, contact.body_a, 0},
+                                                 nullptr, rows_);
             if constexpr (kIsFloat<T>)
                 count_from(velocities_[c], frame_of(contact.normal, surfaces_[c].friction),
                            rows_.contacts.back());
-            if (const unsigned missing = together.present() & ~lanes_with(c); missing != 0) {
-                withdraw(!mask_of<T>(missing), rows_.contacts.back());
-                split = split & rows_.contacts.back().present;
-            }
-            split_ = split_ | split;
         }
         free_ = true;
         for (std::size_t d = 0; d < type.dofs.size(); ++d)
             free_ = free_ & Mask(!is_stiff(type.dofs[d], model.dt_s)) &
                     is_left_alone(tree_axis(model, type, joints, d));
-    }
-
-    /// Bit i: lane i has contact c.
-    unsigned lanes_with(std::size_t c) const { return on_plane_ ? kAllLanes<T> : found_.in_slot(c); }
-
-    /// A row that only the robots `present` have: in the other lanes it does nothing, whatever the
-    /// velocities.
-    void withdraw(const Mask& present, ContactRowT<T>& row) {
-        const auto clear = [&](T& x) { x = select(present, x, T(0)); };
-        for (std::size_t k = row.first; k < row.last; ++k)
-            clear(rows_.columns.n[k]), clear(rows_.columns.t1[k]), clear(rows_.columns.t2[k]);
-        clear(row.normal.target), clear(row.normal.position_target), clear(row.normal.position_compliance);
-        clear(row.normal.high), clear(row.normal.impulse);
-        clear(row.slip.bound), clear(row.slip.target_1), clear(row.slip.target_2);
-        row.sticks = row.sticks & present, row.present = present;
     }
 
     /// Floats: what the solver needs of the poses and velocities.
@@ -392,7 +374,7 @@ class LaneStep final : public LaneStepper {
         solved_ = {};
         if (has_free_bodies()) leave_where(!newton::have_one_normal<T>(rows_), together);
         newton_.start(problem, solution_);
-        leave_where(!newton_.solve(problem, mask_of<T>(together.present()), solution_, solved_), together);
+        leave_where(!newton_.solve(problem, together, solution_, solved_), together);
         if (has_free_bodies()) leave_where(!newton::meets_tolerances(problem, solved_.residual), together);
         pushed_ = false;
         take_impulses();
@@ -412,9 +394,10 @@ class LaneStep final : public LaneStepper {
 
     void find_displacement(const Model& model, Lockstep<T>& together) {
         displacement_ = solution_;
-        if (has_free_bodies()) take_mean_displacement(model.dt_s);
-        if (const Mask some = split_ & mask_of<T>(together.present()); any(some))
-            solve_displacement(problem(model), some, together);
+        if (together.any() && together(split_))
+            solve_displacement(problem(model), together);
+        else if (has_free_bodies())
+            take_mean_displacement(model.dt_s);
         leave_free_robots(together);
         leave_far_turning_robots(model, together);
     }
@@ -422,7 +405,7 @@ class LaneStep final : public LaneStepper {
     /// As contact_island.cpp.
     void take_mean_displacement(double dt) {
         const std::span<const T> before = state_.joints().v;
-        const Mask even = (!split_) & hardly_turns<T>(before) & hardly_turns<T>(solution_) &
+        const Mask even = hardly_turns<T>(before) & hardly_turns<T>(solution_) &
                           contacts_are_steady<T>(rows_, before, solution_, dt);
         for (std::size_t i = 0; i < solution_.size(); ++i)
             displacement_[i] = select(even, T(0.5) * (before[i] + solution_[i]), solution_[i]);
@@ -438,23 +421,20 @@ class LaneStep final : public LaneStepper {
             if (row.motor != nullptr) store_warm_start(row.impulse, *row.motor);
         for (std::size_t c = 0; c < contacts_.size(); ++c) {
             take_impulse(rows_.contacts[c], surfaces_[c].friction, contacts_[c]);
-            pushed_ = pushed_ | (rows_.contacts[c].present & (contacts_[c].impulse > T(0)));
+            pushed_ = pushed_ | (contacts_[c].impulse > T(0));
         }
     }
 
-    /// For `some` lanes; the others move by their velocities.
-    void solve_displacement(SolveProblem<T> problem, const Mask& some, Lockstep<T>& together) {
+    void solve_displacement(SolveProblem<T> problem, Lockstep<T>& together) {
         problem.position = true;
         for (ContactRowT<T>& row : rows_.contacts) turn_to_displacement(row);
         SolveReportT<T> report;
         newton_.start(problem, displacement_);
-        leave_where(some & !newton_.solve(problem, some, displacement_, report), together);
-        if (has_free_bodies())
-            leave_where(some & !newton::meets_tolerances(problem, report.residual), together);
+        leave_where(!newton_.solve(problem, together, displacement_, report), together);
+        if (has_free_bodies()) leave_where(!newton::meets_tolerances(problem, report.residual), together);
         solved_.iterations += report.iterations;
-        for (const ContactRowT<T>& row : rows_.contacts)
-            pushed_ = pushed_ | (some & (row.normal.impulse > T(0)));
-        leave_where(some & corrects_too_fast(), together);
+        for (const ContactRowT<T>& row : rows_.contacts) pushed_ = pushed_ | (row.normal.impulse > T(0));
+        leave_where(corrects_too_fast(), together);
     }
 
     Mask corrects_too_fast() {
@@ -478,17 +458,17 @@ class LaneStep final : public LaneStepper {
     /// Contacts of bodies that turn far get a second look, one by one.
     void leave_far_turning_robots(const Model& model, Lockstep<T>& together) {
         if (on_plane_ || !together.any()) return;
+        const auto first = static_cast<std::size_t>(std::countr_zero(together.present()));
         bool is_known = false;
         for (std::size_t c = 0; c < contacts_.size(); ++c) {
-            const Contact& contact = found_.contact(0, c);
+            const Contact& contact = found_.contact(first, c);
             if (model.statics[contact.shape_b].shape.kind == ShapeKind::kPlane) continue;
             if (!is_known) turn_bodies();
             is_known = true;
             const BodyShape& shape = work_.type->shapes[contact.shape_a];
             const auto body = static_cast<std::size_t>(shape.body);
             const Mat3T<T> R = work_.bodies[body].X_WB.R * broadcast<T>(shape.X_BS.R);
-            leave_where(rows_.contacts[c].present & turns_far<T>(shape.shape, R, turning_[body], model.dt_s),
-                        together);
+            leave_where(turns_far<T>(shape.shape, R, turning_[body], model.dt_s), together);
         }
     }
 
@@ -547,7 +527,6 @@ class LaneStep final : public LaneStepper {
 
     void scatter_contacts(std::size_t i) {
         for (std::size_t c = 0; c < contacts_.size(); ++c) {
-            if ((lanes_with(c) >> i & 1u) == 0) continue;
             Contact& to = found_.contact(i, c);
             const ContactT<T>& from = contacts_[c];
             to.impulse = lane(from.impulse, i), to.load = lane(from.load, i);
@@ -581,7 +560,7 @@ class LaneStep final : public LaneStepper {
     std::vector<ContactT<T>> contacts_;
     std::vector<SurfacePair> surfaces_;  // of these, the same in all lanes
     IslandRowsT<T> rows_;
-    LaneNewton<T> newton_;
+    Newton<T, TreeHessian<T>> newton_;
     SolveReportT<T> solved_;
     friction::BoundError<T> friction_error_;  // of the velocities, if it is profiled
     Mask split_{false}, free_{false}, pushed_{false};

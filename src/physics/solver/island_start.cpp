@@ -115,10 +115,11 @@ void IslandSolver::step_as_swept(const Problem& p, std::vector<double>& v, Repor
 /// tick. False, and back to the start, if they do not end.
 bool IslandSolver::continue_at_rest(const Problem& p, std::vector<double>& v, Report& report) {
     if (p.again || !hardly_moves(p.rows)) return false;
+    Lockstep<double> alone;
     carried_.clear();
     for (const ContactRow& row : p.rows.contacts) carried_.push_back(row.normal.impulse);
-    start_as_expected(p, v, report);
-    if (report.residual <= plan_.couple_from && solve_coupled(p, v, report)) return true;
+    start_as_expected(p, alone, v, report);
+    if (report.residual <= plan_.couple_from && solve_coupled(p, alone, v, report)) return true;
     return_to_beginning(p, v);
     for (std::size_t c = 0; c < carried_.size(); ++c) p.rows.contacts[c].normal.impulse = carried_[c];
     return false;
@@ -137,6 +138,7 @@ void IslandSolver::return_to_beginning(const Problem& p, std::vector<double>& v)
 bool IslandSolver::solve_by_sweeps(const Problem& p, std::vector<double>& v, Report& report) {
     constexpr int kTries = 6, kLongMost = 3;  // of them, from so many series of sweeps
     constexpr int kFewSweeps = 20;
+    Lockstep<double> alone;
     v_before_sweeps_ = v;
     if (hessian_.couples() && continue_at_rest(p, v, report)) return true;
     const SweepPlan plan = sweep_plan(p);
@@ -150,7 +152,7 @@ bool IslandSolver::solve_by_sweeps(const Problem& p, std::vector<double>& v, Rep
     for (int tries = 1, longs = 1; hessian_.couples(); ++tries) {
         step_as_swept(p, v, report);
         const bool is_close = report.residual <= plan_.couple_from;
-        if (is_close && solve_coupled(p, v, report)) return true;
+        if (is_close && solve_coupled(p, alone, v, report)) return true;
         if (tries == kTries || (!is_close && longs == kLongMost)) break;
         if (is_close)
             sweeps_.take_up(p, kFewSweeps, v);  // from the impulses at which Newton's method gave up
@@ -159,7 +161,7 @@ bool IslandSolver::solve_by_sweeps(const Problem& p, std::vector<double>& v, Rep
     }
     // Sweeps that do not converge still tell the friction bounds better than anything else.
     step_as_swept(p, v, report);
-    if (Newton::iterate(p, v, report, false)) return true;
+    if (Newton::iterate(p, alone, v, report, false)) return true;
     return_to_beginning(p, v);
     return false;
 }
@@ -211,7 +213,7 @@ bool IslandSolver::displace(const Problem& p, std::vector<double>& v, Report& re
                            : row.impulse >= row.high ? Pushing::kHigh
                                                      : Pushing::kBetween);
     });
-    keep_start(v);
+    keep_start(p, v);
     for (int round = 0; round < kRoundsMax; ++round) {
         if (round > 0) return_to_start(p, v);
         newton::update_impulses(p.rows);

@@ -154,22 +154,6 @@ template <class T>
     return {n.sum(), t1.sum(), t2.sum()};
 }
 
-/// y += columns * a, in some lanes: elsewhere even adding zero would take the sign from a zero.
-template <class T>
-void add_where(const MaskOf<T>& some, const ContactColumnsT<T>& columns, std::size_t first, std::size_t last,
-               const Along<T>& a, std::vector<T>& y) {
-    for (std::size_t c = first; c < last; ++c) {
-        const std::size_t ahead = columns.base[c] ? 6 : 1;
-        T* ys = y.data() + columns.dof[c];
-        for (std::size_t k = 0; k < ahead; ++k) {
-            const T sum = columns.n[c + k] * a.n + columns.t1[c + k] * a.t1 + columns.t2[c + k] * a.t2;
-            ys[k] = select(some, ys[k] + sum, ys[k]);
-        }
-        c += ahead - 1;
-    }
-}
-
-/// y += columns * impulse
 template <class T>
 [[gnu::always_inline]] inline void add(const ContactColumnsT<T>& columns, std::size_t first, std::size_t last,
                                        const Along<T>& impulse, std::vector<T>& y) {
@@ -197,15 +181,9 @@ void add_impulses(const IslandRowsT<T>& rows, std::vector<T>& y) {
             y[static_cast<std::size_t>(rows.coupling_columns[c].dof)] +=
                 rows.coupling_columns[c].j * row.impulse;
     }
-    for (const ContactRowT<T>& row : rows.contacts) {
-        const jacobian::Along<T> impulse{row.normal.impulse, row.slip.impulse_1, row.slip.impulse_2};
-        if constexpr (kLanesOf < T >> 1)
-            if (any(!row.present)) {
-                jacobian::add_where<T>(row.present, rows.columns, row.first, row.last, impulse, y);
-                continue;
-            }
-        jacobian::add<T>(rows.columns, row.first, row.last, impulse, y);
-    }
+    for (const ContactRowT<T>& row : rows.contacts)
+        jacobian::add<T>(rows.columns, row.first, row.last,
+                         {row.normal.impulse, row.slip.impulse_1, row.slip.impulse_2}, y);
     for (const AngularRowT<T>& row : rows.angulars)
         jacobian::add<T>(rows.columns, row.first, row.last,
                          {row.spin.impulse, row.roll.impulse_1, row.roll.impulse_2}, y);

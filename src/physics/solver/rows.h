@@ -162,7 +162,6 @@ struct ContactRowT {
     bool joins = false;  // both sides have columns: two robots, or a robot that touches itself
     // It carried a load in the last tick and did not slide: it probably will not now.
     MaskOf<T> sticks{false};
-    MaskOf<T> present{true};            // in lanes: only some robots have it (withdraw)
     double inverse_effective_mass = 1;  // 1/kg: mobility that its compliances are relative to
 };
 using ContactRow = ContactRowT<double>;

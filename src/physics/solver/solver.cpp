@@ -31,6 +31,7 @@ bool is_pile(const IslandSolver::Problem& p) {
 /// point method goes through the middle, in a number of steps that hardly depends on the problem: once with
 /// the bounds of the last tick, once with those that follow from it.
 void IslandSolver::solve_any(const Problem& p, std::vector<double>& v, Report& report) {
+    Lockstep<double> alone;
     const bool piled = is_pile(p);
     plan_ = piled ? kPilePlan : p.robots.size() > 1 ? kCrowdPlan : newton::Plan{};
     start(p, v);
@@ -39,25 +40,26 @@ void IslandSolver::solve_any(const Problem& p, std::vector<double>& v, Report& r
         return take_sweeps(p, v, report);
     if (piled) {
         if (p.position ? displace(p, v, report) : solve_by_sweeps(p, v, report)) return;
-        start_as_expected(p, v, report);
-        if (Newton::iterate(p, v, report, p.position)) return;
-    } else if (Newton::solve(p, v, report)) {
+        start_as_expected(p, alone, v, report);
+        if (Newton::iterate(p, alone, v, report, p.position)) return;
+    } else if (Newton::solve(p, alone, v, report)) {
         return;
     }
     friction::set_bounds(p.rows, start_bounds_);
     interior_point(p, v, report);
     if (p.position) return;
     friction::fit_bounds(p.rows, [&](std::size_t c) { return p.rows.contacts[c].normal.impulse; });
-    if (Newton::solve(p, v, report)) return;
+    if (Newton::solve(p, alone, v, report)) return;
     interior_point(p, v, report);
 }
 
 bool IslandSolver::solve_plainly(const Problem& p, std::vector<double>& v, SolveReport& report) {
     v_before_ = v, contacts_before_ = p.rows.contacts;
+    Lockstep<double> alone;
     Report solved;
     plan_ = {};
     start(p, v);
-    const bool balances = Newton::solve(p, v, solved);
+    const bool balances = Newton::solve(p, alone, v, solved);
     report = {static_cast<int>(solved.iterations), solved.residual};
     if (balances && newton::meets_tolerances(p, solved.residual)) return true;
     v = v_before_, p.rows.contacts = contacts_before_;

@@ -23,7 +23,7 @@ struct SolveReport {
     double residual = 0;  // relative, of the momentum balance
 };
 
-class IslandSolver : Newton<Hessian> {
+class IslandSolver : Newton<double, Hessian> {
   public:
     using Problem = SolveProblem<double>;
 

@@ -59,10 +59,10 @@ class TreeHessian {
     /// Whether it does unsymmetric matrices.
     static constexpr bool couples() { return true; }
 
-    /// Takes the rows' curvatures, as far as they changed; where `coupled` also those of friction bounds that
+    /// Takes the rows' curvatures, as far as they changed; with `coupled` also those of friction bounds that
     /// move with the normal impulse, which make the matrix unsymmetric. Nothing is left out: here it would
     /// spare little.
-    void assemble(IslandRowsT<T>& rows, const MaskOf<T>& coupled, const T& /*lack*/) {
+    void assemble(IslandRowsT<T>& rows, bool coupled, const T& /*lack*/) {
         coupled_ = coupled;
         for (JointRowT<T>& row : rows.joints) {
             const T change = row.d - row.d_held;
@@ -74,7 +74,7 @@ class TreeHessian {
         for (AngularRowT<T>& row : rows.angulars)
             add_block(rows.columns, row.first, row.last, take_change(row.spin, row.roll));
         h_ = kept_;
-        if (!any(coupled)) return;
+        if (!coupled) return;
         upper_ = kept_;
         add_slides(rows);
     }
@@ -82,26 +82,17 @@ class TreeHessian {
     /// x := H^-1 x, once after assemble. False for the lanes whose unsymmetric matrix has no factorisation
     /// without pivoting.
     MaskOf<T> solve(std::vector<T>& x) {
-        if (!any(coupled_)) return solve_symmetric(h_, x);
-        const MaskOf<T> symmetric = !coupled_;
-        if (any(symmetric)) {
-            symmetric_ = kept_, x_ = x;
-            solve_symmetric(symmetric_, x_);
+        if (!coupled_) {
+            tree_factor(*paths_, h_.data());
+            tree_solve(*paths_, h_.data(), x.data());
+            return true;
         }
         const MaskOf<T> good = tree_factor_general(*paths_, h_.data(), upper_.data());
         if (any(good)) tree_solve_general(*paths_, h_.data(), upper_.data(), x.data());
-        if (!any(symmetric)) return good;
-        for (std::size_t i = 0; i < x.size(); ++i) x[i] = select(symmetric, x_[i], x[i]);
-        return good | symmetric;
+        return good;
     }
 
   private:
-    bool solve_symmetric(std::vector<T>& h, std::vector<T>& x) {
-        tree_factor(*paths_, h.data());
-        tree_solve(*paths_, h.data(), x.data());
-        return true;
-    }
-
     /// J^T D J of one contact, or of its angular row. Its columns are those of one path: a row of the lower
     /// triangle is all that precedes.
     void add_block(const ContactColumnsT<T>& columns, std::size_t first, std::size_t last,
@@ -175,10 +166,9 @@ class TreeHessian {
     }
 
     const DofPaths* paths_ = nullptr;
-    MaskOf<T> coupled_ = false;
+    bool coupled_ = false;
     // Packed by paths, lower triangle; to factor; coupled: upper triangle, transposed.
     std::vector<T> kept_, h_, upper_;
-    std::vector<T> symmetric_, x_;  // of lanes that are not coupled, beside others that are
 };
 
 }  // namespace roboss
