@@ -61,10 +61,8 @@ inline constexpr double kTouchTicks = 2;
 inline constexpr double kSticking = 0.99;  // of the friction bound; beyond, a contact is taken for sliding
 inline constexpr double kSoftBlow = 10;    // m/s
 inline constexpr double kTakenOver =
-    0.1;  // of the speed of recovery: how fast a spring takes over an overlap
-/// What pushes apart turns no joint faster than this, where a contact has hardly a lever on a light link.
-inline constexpr double kPushedTurn = 20;  // rad/s, or m/s of a slide
-inline constexpr double kDeep = 2e-4;      // m of penetration beyond the slop
+    0.1;                               // of the speed of recovery: how fast a spring takes over an overlap
+inline constexpr double kDeep = 2e-4;  // m of penetration beyond the slop
 inline constexpr double kCorrectionShare = 0.3,
                         kDeepCorrectionShare =
                             0.1;  // of the penetration beyond the slop and, of that, beyond kDeep, in a tick
@@ -133,14 +131,6 @@ double mobility(const ContactSide<T>& side) {
     return info == nullptr ? 0.0 : info->inverse_mass_linear;
 }
 
-/// The longest lever of the normal on a degree of freedom, m.
-template <class T>
-T longest_lever(const ContactColumnsT<T>& columns, const ContactRowT<T>& row) {
-    T longest = 0;
-    for (std::size_t k = row.first; k < row.last; ++k) longest = larger(longest, magnitude(columns.n[k]));
-    return longest;
-}
-
 /// Gravity along the normal as the body feels it.
 template <class T>
 T gravity_along(const Model& model, const ContactSide<T>& side, const Vec3T<T>& n) {
@@ -186,17 +176,16 @@ NormalTargets<T> impact(const ContactT<T>& c, const SurfacePair& surface, const 
 /// contact that is new made what it approached by; one that is remembered has the share that its load keeps,
 /// but no more than the force of its last tick shows (an order may have moved it since). The rest of the
 /// overlap was there at the start. It is taken over so slowly that a contact at rest becomes a plain spring,
-/// and nothing is thrown; and only if it is no more than `bears`, what a load compresses it by: links that are
-/// jammed in each other would store what throws them once they come free.
+/// and nothing is thrown.
 template <class T>
-T sprung_depth(const ContactT<T>& c, const SurfacePair& surface, const T& depth, const T& approach, double dt,
-               const T& speed, const T& bears) {
+T sprung_depth(const ContactT<T>& c, const SurfacePair& surface, const T& depth, const T& approach,
+               double dt) {
     const Softness& soft = surface.softness;
     const MaskOf<T> known = c.impulse > T(0);
     const T kept = depth * (c.load / c.impulse),
             shown = (c.impulse / T(dt) - T(soft.damping) * approach) / T(soft.stiffness),
             made = select(known, larger(smaller(kept, shown), T(0)), larger(approach, T(0)) * T(dt));
-    return smaller(depth, made + select(depth - made <= bears, T(kTakenOver * dt) * speed, T(0)));
+    return smaller(depth, made + T(kTakenOver * surface.correction_speed * dt));
 }
 
 /// A spring and damper taken implicitly: force = stiffness * depth - damping * u with the depth and the
@@ -204,22 +193,20 @@ T sprung_depth(const ContactT<T>& c, const SurfacePair& surface, const T& depth,
 /// tick. Of an overlap that no motion made, `unsprung`, the force falls to zero where the surfaces part at
 /// the speed of recovery: damping = stiffness * unsprung / speed besides. So shapes that start in each other
 /// are pushed apart by what would bear them there, but no faster. The spring counts as compressed no deeper
-/// than a body of mobility `inverse_effective_mass` could have come by a blow of kSoftBlow. `gravity`: m/s^2.
-/// False if the contact is as hard as rigid ones, of compliance `rigid`.
+/// than a body of mobility `inverse_effective_mass` could have come by a blow of kSoftBlow. False if the
+/// contact is as hard as rigid ones, of compliance `rigid`.
 template <class T>
 bool set_softness(const ContactT<T>& c, const SurfacePair& surface, const T& approach, double dt,
-                  double inverse_effective_mass, double gravity, double rigid,
-                  const ContactColumnsT<T>& columns, ContactRowT<T>& row) {
+                  double inverse_effective_mass, double rigid, ContactRowT<T>& row) {
     const Softness& soft = surface.softness;
     if (soft.stiffness <= 0) return false;
     if (1.0 / (dt * dt * soft.stiffness + dt * soft.damping) < rigid) return false;
     constexpr double kSlowest = 1e-9;  // m/s
     const T most = T(kSoftBlow / std::sqrt(soft.stiffness * inverse_effective_mass)),
-            depth = larger(-c.gap, T(0)), turning = T(kPushedTurn) * longest_lever(columns, row),
-            speed = larger(smaller(T(surface.correction_speed), turning), T(kSlowest)),
-            bears = T(kWeights * gravity / (soft.stiffness * inverse_effective_mass));
-    const T unsprung = depth - sprung_depth(c, surface, depth, approach, dt, speed, bears),
-            braking = T(soft.stiffness) / speed * smaller(unsprung, most);
+            depth = larger(-c.gap, T(0));
+    const T unsprung = depth - sprung_depth(c, surface, depth, approach, dt),
+            braking =
+                T(soft.stiffness / std::max(surface.correction_speed, kSlowest)) * smaller(unsprung, most);
     row.normal.compliance =
         larger(T(1) / (T(dt * dt * soft.stiffness + dt * soft.damping) + T(dt) * braking), T(rigid));
     row.normal.target =
@@ -341,9 +328,8 @@ MaskOf<T> add_contact_row(const Model& model, const ContactT<T>& c, const Surfac
         select(loaded | !hits, T(loaded_compliance<T>(model.accuracy)), T(new_compliance<T>(model.accuracy)));
     row.normal.high = std::numeric_limits<double>::infinity();
     row.normal.impulse = c.impulse;
-    row.soft = contact::set_softness(c, surface, approach, dt, inverse_effective_mass, norm(model.gravity),
-                                     inverse_effective_mass * bounce_compliance<T>(model.accuracy),
-                                     rows.columns, row);
+    row.soft = contact::set_softness(c, surface, approach, dt, inverse_effective_mass,
+                                     inverse_effective_mass * bounce_compliance<T>(model.accuracy), row);
     MaskOf<T> split = false;
     if (!row.soft)
         split = contact::set_normal(c, surface, approach, gravity_n, dt, compliance,
