@@ -119,7 +119,7 @@ copy_settings() {
 copy_repository() {
     local list=$root/root/.roboss_files new
     new=$(mktemp)
-    git -C "$here/.." ls-files -z --cached --others --exclude-standard >"$new" || fail 3 "git lists no files here" \
+    git -c safe.directory="*" -C "$here/.." ls-files -z --cached --others --exclude-standard >"$new" || fail 3 "git lists no files here" \
         "remedy: read git's message above; the repository must be a clone"
     mkdir -p "$root/$copy"
     (cd "$here/.." && while IFS= read -r -d '' file; do
