@@ -13,7 +13,7 @@ from pathlib import Path
 ROBOSS, WORLDS = Path(sys.argv[1]), Path(sys.argv[3])
 ROOT = WORLDS.parent
 PAGES = [*(ROOT / name for name in ("README.md", "CONTRIBUTING.md", "deploy/README.md")), *sorted((ROOT / "docs").glob("*.md"))]
-GROUPS = ("journal", "cluster")  # commands of which the second word is a command, too
+GROUPS = ("journal", "cluster", "keys")  # commands of which the second word is a command, too
 PYTHON = ("record", "plot", "analyse", "calibrate")  # parsed by the Python package
 
 

@@ -1,5 +1,5 @@
-"""tools/bare_root.sh and .ci/run: what they refuse, with which remedy, what a root gets, and what comes out of it. A real
-root needs root, a network and half a minute, so debootstrap is a stand-in here; .ci/run itself works in a real one."""
+"""tools/bare_root.sh: what it refuses, with which remedy, what a root gets, and what comes out of it. A real root needs root, a
+network and half a minute, so debootstrap is a stand-in here."""
 import os
 import shutil
 import subprocess
@@ -138,60 +138,6 @@ class BareRoot(Tree):
     def test_the_exit_code_is_that_of_the_command(self):
         self.program(self.bin / "unshare", '[[ ${!#} == true ]] || exit 7')
         self.assertEqual(self.make("bookworm", self.root, "ls")[0], 7)
-
-
-class Ci(Tree):
-    """.ci/run among stand-ins: the root is a folder, and what runs in it runs in a copy."""
-    ROOT = 'mkdir -p "$2/root/roboss"; [[ $# -gt 2 ]] || exit 0; d=$2/root/roboss; shift 2; [[ $1 == apt-get ]] && exit 0\n' \
-           'cp -r . "$d"; cd "$d"; exec "$@"'
-    TEST = 'mkdir -p build/release; echo "<testcase name=\\"a\\" status=\\"run\\">" > build/release/test_results.xml'
-
-    def setUp(self):
-        super().setUp()
-        (self.tree / ".ci").mkdir()
-        shutil.copy(TOOLS.parent / ".ci/run", self.tree / ".ci/run")
-        shutil.copy(TOOLS / "count_tests.sh", self.tree / "tools/count_tests.sh")
-        for name in ("run.sh", "tools/setup.sh", "tools/check_builds"):
-            self.program(self.tree / name, f"echo {name} in $PWD >> {self.base}/calls")
-        self.program(self.tree / "test.sh", self.TEST)
-        self.program(self.tree / "tools/bare_root.sh", self.ROOT)
-
-    def run_ci(self):
-        (self.base / "calls").write_text("")
-        code, output = self.start(self.tree / ".ci/run")
-        return code, output.splitlines(), (self.base / "calls").read_text()
-
-    def test_works_in_the_root_and_brings_the_results_out(self):
-        code, lines, calls = self.run_ci()
-        self.assertEqual((code, lines[-1]), (0, "1 passed, 0 failed"), lines)
-        self.assertNotIn(f"in {self.tree}\n", calls)
-        self.assertEqual([line.split()[0] for line in calls.splitlines()], ["run.sh", "tools/setup.sh", "tools/check_builds"])
-        self.assertTrue((self.tree / "build/release/test_results.xml").exists())
-        self.assertEqual(list(self.base.glob("roboss_ci*")), [])
-
-    def test_any_part_that_fails_makes_it_fail(self):
-        for name in ("run.sh", "test.sh", "tools/check_builds", "tools/setup.sh"):
-            with self.subTest(name=name):
-                before = (self.tree / name).read_text()
-                self.program(self.tree / name, f"{before}\nexit 5")
-                code, lines, _ = self.run_ci()
-                self.assertEqual((code, lines[-1]), (1, "1 passed, 0 failed"), lines)
-                (self.tree / name).write_text(before)
-
-    def test_tests_that_never_ran_count_as_a_failure(self):
-        self.assertEqual(self.run_ci()[0], 0)
-        self.program(self.tree / "test.sh", "exit 1")
-        code, lines, _ = self.run_ci()
-        self.assertEqual((code, lines[-1]), (1, "0 passed, 1 failed"), lines)
-
-    def test_says_loudly_and_last_what_was_not_proved_without_a_root(self):
-        self.program(self.tree / "tools/bare_root.sh", "echo 'bare_root: this user is not root' >&2; exit 3")
-        code, lines, calls = self.run_ci()
-        self.assertEqual((code, lines[-1]), (0, "1 passed, 0 failed"), lines)
-        self.assertIn(f"in {self.tree}\n", calls)
-        self.assertIn("NO BARE ROOT", "\n".join(lines))
-        self.assertIn("NOT PROVED", "\n".join(lines[-3:]))
-        self.assertIn("not root", lines[-2])
 
 
 if __name__ == "__main__":
