@@ -75,6 +75,7 @@ std::string remedy_for(const std::string& path) {
     std::error_code error;
     if (path.empty()) return "Write a path.";
     const fs::path wanted(path), folder = wanted.has_parent_path() ? wanted.parent_path() : fs::path(".");
+    if (fs::is_directory(wanted, error)) return "Name a file in it.";
     if (!fs::exists(folder, error)) return "There is no folder '" + folder.string() + "'; check the path.";
     std::vector<std::string> names;
     if (!fs::exists(wanted, error))
@@ -136,8 +137,13 @@ std::size_t end_before_stray_tags(const std::string& text, const pugi::xml_parse
 std::unique_ptr<SourceFile> SourceFile::read(const std::string& path, Diagnostics& diagnostics) {
     std::error_code ignored;
     std::ifstream stream(path, std::ios::binary);
-    if (!stream || std::filesystem::is_directory(path, ignored)) {
-        diagnostics.error({path, 0}, "cannot-read", "the file '" + path + "' cannot be read",
+    const bool is_folder = std::filesystem::is_directory(path, ignored);
+    if (!stream || is_folder) {
+        const bool exists = std::filesystem::exists(path, ignored);
+        diagnostics.error({path, 0}, "cannot-read",
+                          is_folder ? "'" + path + "' is a folder"
+                          : exists  ? "the file '" + path + "' cannot be read"
+                                    : "there is no file '" + path + "'",
                           remedy_for(path));
         return nullptr;
     }

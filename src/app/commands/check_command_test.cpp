@@ -114,6 +114,17 @@ TEST(CheckCommand, ListsTheCommandsOfEachTypeOfRobot) {
     EXPECT_EQ(type.at("commands").at(0).at("values").at(5).at("unit"), "rad/s");
 }
 
+TEST(CheckCommand, TypesWithTheSameNamesAreListedOnce) {
+    std::string heavy = ball("y", "");
+    heavy.replace(heavy.find("<mass>1"), 7, "<mass>2");
+    const std::string text =
+        "<sdf version='1.9'><world name='w'>\n" + ball("x", "") + heavy + "</world></sdf>";
+    const auto report = nlohmann::json::parse(check(text, {"--json", "--names"}).printed);
+    EXPECT_EQ(report.at("robot_types"), 2);
+    ASSERT_EQ(report.at("names").size(), 1u);
+    EXPECT_EQ(report.at("names").at(0).at("robots"), nlohmann::json({"x", "y"}));
+}
+
 TEST(CheckCommand, SaysWhatBecomesOfEachPlugin) {
     const std::string moves =
         "<plugin filename='gz-sim-velocity-control-system' "

@@ -51,9 +51,8 @@ void print(const Diagnostics& diagnostics, const std::string& world) {
             --unprinted;
         }
     if (unprinted > 0)
-        fmt::print(stderr,
-                   "{} more findings or notes about this world; `roboss check {} --all` prints them\n",
-                   unprinted, world);
+        fmt::print(stderr, "{} more {} about this world; `roboss check {} --all` prints {}\n", unprinted,
+                   unprinted == 1 ? "finding" : "findings", world, unprinted == 1 ? "it" : "them");
 }
 
 /// Prints what is wrong with the orders of a file. Returns false if anything is.

@@ -227,10 +227,15 @@ Action parse_joint(const json& o, const RobotType& type, const std::string& robo
     return order;
 }
 
-std::string names_of(const RobotType& type) {
+/// For a command that the robot does not take.
+std::string remedy_for(const std::string& command, const RobotType& type) {
     std::string all;
-    for (const ChannelInfo& c : type.channels) all += (all.empty() ? "" : ", ") + c.channel.name;
-    return all.empty() ? "it takes no commands" : "it takes: " + all;
+    std::vector<std::string> names;
+    for (const ChannelInfo& c : type.channels) {
+        names.push_back(c.channel.name);
+        all += (all.empty() ? "" : ", ") + c.channel.name;
+    }
+    return did_you_mean(command, names, all.empty() ? "it takes no commands" : "it takes: " + all);
 }
 
 /// A value of a command: a number, a truth value, or one of the texts that it knows.
@@ -252,23 +257,26 @@ std::vector<double> command_values(const json& o, const Channel& channel, const 
         only_keys(o, "command", {name, "values"});
         return numbers(o, "values", o["values"].size());
     }
-    std::size_t known = 1;
+    std::vector<std::string> keys = {name, "values"};
+    std::string all = std::string("known keys: ") + name + ", values";
     for (const ChannelValue& value : channel.values) {
-        known += o.contains(value.name) ? 1 : 0;
         values.push_back(o.contains(value.name) ? command_value(o, value) : 0.0);
+        keys.push_back(value.name);
+        all += ", " + value.name;
     }
-    if (known == o.size()) return values;
-    std::string all = "values";
-    for (const ChannelValue& value : channel.values) all += ", " + value.name;
-    throw LineFault("the command has keys that '" + channel.name + "' does not have",
-                    std::string("known keys: ") + name + ", " + all);
+    for (const auto& [key, given] : o.items())
+        if (std::ranges::find(keys, key) == keys.end())
+            throw LineFault("'" + key + "' is no value of the command '" + channel.name + "'",
+                            did_you_mean(key, keys, all));
+    return values;
 }
 
 Action parse_command(const json& o, const RobotType& type, const std::string& robot) {
     if (!o.is_object()) throw LineFault("command is not a JSON object", "write {\"name\": ..., ...}");
     const std::string name = text(o, "name");
     const auto channel = type.find_command(name);
-    if (!channel) throw LineFault("robot '" + robot + "' has no command '" + name + "'", names_of(type));
+    if (!channel)
+        throw LineFault("robot '" + robot + "' has no command '" + name + "'", remedy_for(name, type));
     return Command{static_cast<std::uint32_t>(*channel), command_values(o, type.channels[*channel].channel)};
 }
 
@@ -379,9 +387,11 @@ Action parse_transmit(const json& o, const Model& model, RobotId robot) {
 json parse_json(const std::string& line) {
     try {
         return json::parse(line);
-    } catch (const json::exception& error) {
-        throw LineFault("not valid JSON: " + std::string(error.what()),
+    } catch (const json::parse_error& error) {
+        throw LineFault("not valid JSON at character " + std::to_string(error.byte) + " of the line",
                         "write one complete JSON object per line");
+    } catch (const json::out_of_range&) {
+        throw LineFault("a number of the line is too large", "give a finite number");
     }
 }
 

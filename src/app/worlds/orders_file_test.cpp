@@ -274,6 +274,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadLine{R"({"t":0,"robot":"cart","wrench":{"link":"bottom","force":[0,0,1]}})", "'bottom'"},
         BadLine{R"({"t":0,"robot":"cart","wrench":{"link":"top","force":[0,0,1],"duration":0}})",
                 "'duration'"},
+        BadLine{"no JSON", "character 2"},
         BadLine{R"({"t":0,"robot":"cart","transmit":{"radio":"ratio","text":""}})", "'ratio'"},
         BadLine{R"({"t":0,"robot":"cart","transmit":{"radio":"radio"}})", "'text'"},
         BadLine{R"({"t":0,"robot":"cart","transmit":{"radio":"radio","hex":"abc"}})", "'hex'"},
@@ -300,6 +301,15 @@ std::shared_ptr<const Model> swarm_model() {
     world.dt_s = 0.002;
     Diagnostics diagnostics;
     return compile(world, {}, diagnostics);
+}
+
+TEST(OrdersFile, AMisspeltValueOfACommandIsNamedWithTheOneThatWasMeant) {
+    Diagnostics d;
+    const std::string line = R"({"t":0,"robot":"X1","command":{"name":"cmd_vel","liner_x":1}})";
+    parse_orders(line + "\n", "f.jsonl", *swarm_model(), d);
+    ASSERT_EQ(d.items().size(), 1u);
+    EXPECT_NE(d.items()[0].message.find("'liner_x'"), std::string::npos) << d.items()[0].message;
+    EXPECT_NE(d.items()[0].remedy.find("'linear_x'"), std::string::npos) << d.items()[0].remedy;
 }
 
 TEST(OrdersFile, APatternOrdersAllRobotsThatItFitsByTheirOrderInTheWorld) {

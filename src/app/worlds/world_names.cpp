@@ -7,6 +7,7 @@
 #include <charconv>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <tuple>
 #include <utility>
 
 #include "model/topics.h"
@@ -70,6 +71,19 @@ nlohmann::json things_to_json(const std::vector<NamedThing>& things) {
     return list;
 }
 
+/// The place of what has these names, at the end if nothing has them yet: types that differ in what has no
+/// name here, such as their topics, are listed together.
+std::size_t place_in(std::vector<TypeNames>& all, TypeNames names) {
+    const auto is_alike = [&](const TypeNames& other) {
+        return std::tie(other.links, other.joints, other.sensors, other.commands) ==
+               std::tie(names.links, names.joints, names.sensors, names.commands);
+    };
+    const auto found = std::ranges::find_if(all, is_alike);
+    if (found != all.end()) return static_cast<std::size_t>(found - all.begin());
+    all.push_back(std::move(names));
+    return all.size() - 1;
+}
+
 }  // namespace
 
 std::vector<TypeNames> list_names(const Model& model) {
@@ -79,10 +93,7 @@ std::vector<TypeNames> list_names(const Model& model) {
         const RobotType& type = model.types[robot.type.index()];
         if (board_of(type) != nullptr) continue;
         std::size_t& place = places[robot.type.index()];
-        if (place == model.types.size()) {
-            place = all.size();
-            all.push_back(type_names(type));
-        }
+        if (place == model.types.size()) place = place_in(all, type_names(type));
         all[place].robots.push_back(robot.name);
     }
     return all;

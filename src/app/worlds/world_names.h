@@ -14,6 +14,7 @@ namespace roboss {
 struct NamedThing {
     std::string name;  // as orders spell it
     std::string kind;  // "revolute", "gpu_lidar"
+    bool operator==(const NamedThing&) const = default;
 };
 
 /// The names of one robot type, and the robots that have it.
@@ -24,8 +25,8 @@ struct TypeNames {
     std::vector<std::string> commands;
 };
 
-/// All types that robots have, in the order of their first robots. The board of the world's messages is left
-/// out.
+/// All names that robots have, in the order of their first robots; types whose names are equal are one entry.
+/// The board of the world's messages is left out.
 std::vector<TypeNames> list_names(const Model& model);
 
 /// "car_0 ... car_49 (50)": consecutive numbers of a name are shortened where there are more than four.
