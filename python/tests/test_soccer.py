@@ -68,15 +68,18 @@ def test_the_same_seed_gives_the_same_bits(mode):
 
 
 def test_the_hand_written_driver_scores():
-    env = envs.SoccerVectorEnv(num_envs=48, cars=1, threads=1)
-    observations, _ = env.reset(seed=2)
     goals = 0
-    for _ in range(1200):
-        actions = envs.chase_the_ball(observations)
-        actions[1::2] = 0                     # blue cars stand
-        observations, *_, infos = env.step(actions)
-        goals += infos["goals"][::2].sum()
-    assert goals >= 7                         # of 24 red cars in a minute; 9, 14 and 8 with seeds 2, 3 and 4
+    for seed in (2, 3, 4):
+        env = envs.SoccerVectorEnv(num_envs=48, cars=1, threads=1)
+        observations, _ = env.reset(seed=seed)
+        for _ in range(1200):
+            actions = envs.chase_the_ball(observations)
+            actions[1::2] = 0                     # blue cars stand
+            observations, *_, infos = env.step(actions)
+            goals += infos["goals"][::2].sum()
+    # 24 red cars, three times a minute: 34 and 31 on two machines; numpy's functions differ in the last bit between
+    # processors, and a ball at a corner magnifies that. By chance alone it would be about none.
+    assert goals >= 15
 
 
 def test_wrong_numbers_of_cars_are_refused():

@@ -6,6 +6,7 @@
 #include <sys/ioctl.h>
 #include <sys/socket.h>
 
+#include <fcntl.h>
 #include <linux/sockios.h>
 
 #include <boost/asio/io_context.hpp>
@@ -68,6 +69,7 @@ Connection::Connection(asio::io_context& context, int socket, std::unique_ptr<Tl
       heard_ms_(opened_ms_),
       sent_ms_(opened_ms_),
       session_(std::move(session)) {
+    ::fcntl(socket, F_SETFD, FD_CLOEXEC);
     set_option(socket, TCP_NODELAY, 1);
     // Unsent bytes wait here, where short messages overtake them, and not in the kernel.
     set_option(socket, TCP_NOTSENT_LOWAT, static_cast<int>(kWriteAtOnce));

@@ -21,7 +21,7 @@ namespace {
 
 using test::becomes, test::checked, test::controller_of, test::loopback, test::member_of, test::receive;
 
-const Address kOne{Role::kSimulator, 1}, kTwo{Role::kSimulator, 2}, kClient{Role::kClient, 3};
+const Address kOne{Role::kSimulator, 1}, kTwo{Role::kSimulator, 2};
 
 /// A ring of keys in a folder of its own.
 class Keys {

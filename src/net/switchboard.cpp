@@ -1,6 +1,8 @@
 // Calls, answers, routes, and silence.
 #include "net/switchboard.h"
 
+#include <fcntl.h>
+
 #include <algorithm>
 #include <boost/asio/executor_work_guard.hpp>
 #include <boost/asio/io_context.hpp>
@@ -149,6 +151,8 @@ Result<> Switchboard::listen() {
     boost::system::error_code error;
     Tcp::acceptor& acceptor = thread_->acceptor;
     acceptor.open(end.protocol(), error);
+    // Programs that this process starts shall not hold the port.
+    if (!error) ::fcntl(acceptor.native_handle(), F_SETFD, FD_CLOEXEC);
     if (!error) acceptor.set_option(Tcp::acceptor::reuse_address(true), error);
     if (!error) acceptor.bind(end, error);
     if (!error) acceptor.listen(asio::socket_base::max_listen_connections, error);
