@@ -140,7 +140,10 @@ void Connection::pause() {
 }
 
 void Connection::resume() {
-    if (paused_.exchange(false)) asio::post(socket_->context, [self = shared_from_this()] { self->read(); });
+    if (!paused_) return;
+    heard_ms_ = monotonic_ms();  // it could not be heard while nothing was read
+    paused_ = false;
+    asio::post(socket_->context, [self = shared_from_this()] { self->read(); });
 }
 
 // --- sending
