@@ -9,7 +9,7 @@
 
 namespace roboss {
 
-/// What a holder may be in a run.
+/// The roles that a certificate may give in a run.
 enum class Seat : std::uint8_t {
     kController,
     kSimulator,

@@ -66,8 +66,8 @@ class Connection : public std::enable_shared_from_this<Connection> {
     /// "192.0.2.7:41233", of the other end.
     const std::string& where() const { return where_; }
 
-    // What the owner knows about the other end; for the owner's use alone.
-    bool accepted = false;
+    // The owner keeps here what it knows about the other end.
+    std::atomic<bool> accepted = false;
     Caller hello;
 
     static constexpr std::size_t kWaitingMost = std::size_t{256} << 20;
@@ -86,7 +86,6 @@ class Connection : public std::enable_shared_from_this<Connection> {
     void receive(std::span<const std::uint8_t> data);
     bool take(const Frame& frame);
     void wait_until_writable();
-    void pump();
     std::string pump_locked();
     bool fill_locked(std::string& failure);
     void add_pieces_locked();

@@ -12,7 +12,7 @@ namespace {
 constexpr std::size_t kTextMost = 400;  // of a peer's words in logs and errors
 constexpr char kSign[] = {'R', 'o', 'B', 'O', 'S', 'S'};
 
-/// What a peer says goes to terminals and logs: one line, no control characters, not without end.
+/// A peer's words as terminals and logs may show them: one line, no control characters, not without end.
 std::string harmless(std::string text) {
     if (text.size() > kTextMost) text.resize(kTextMost);
     std::replace_if(
@@ -42,7 +42,7 @@ bool FrameReader::next(Frame& frame) {
     std::uint32_t length = 0;
     std::memcpy(&length, bytes_.data() + at_, sizeof length);
     const std::uint8_t kind = bytes_[at_ + sizeof length];
-    if (length > most_ || kind < static_cast<std::uint8_t>(FrameKind::kHello) ||
+    if (length > kFrameMost || kind < static_cast<std::uint8_t>(FrameKind::kHello) ||
         kind > static_cast<std::uint8_t>(FrameKind::kOwn)) {
         broken_ = "it does not speak the protocol of RoBOSS";
         return false;

@@ -44,18 +44,16 @@ class FrameReader {
     std::vector<std::uint8_t>& buffer() { return bytes_; }
     /// The next whole frame. False: there is none yet, or the stream is broken().
     bool next(Frame& frame);
-    /// What is wrong with the stream; empty: nothing.
+    /// The fault of the stream; empty: it has none.
     const std::string& broken() const { return broken_; }
-    /// Longest content that is taken, for streams whose other end is not known yet.
-    void limit(std::size_t most) { most_ = most; }
 
   private:
     std::vector<std::uint8_t> bytes_;
-    std::size_t at_ = 0, most_ = kFrameMost;
+    std::size_t at_ = 0;
     std::string broken_;
 };
 
-/// Who calls.
+/// A caller's words about itself.
 struct Caller {
     std::uint16_t version = 0;  // of the wire
     std::string simulation;

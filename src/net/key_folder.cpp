@@ -51,9 +51,7 @@ Result<> write_private(const fs::path& file, const std::string& text) {
 
 Result<Credentials> read_keys(const fs::path& folder) {
     Credentials credentials;
-    for (const auto& [name, text] : {std::pair{"authority.crt", &credentials.authority},
-                                     std::pair{"member.crt", &credentials.own.certificate},
-                                     std::pair{"member.key", &credentials.own.key}}) {
+    for (const auto& [name, text] : key_files(credentials)) {
         Result<std::string> read = read_text(folder / name);
         if (!read) return read.error();
         *text = std::move(read).value();
@@ -67,9 +65,7 @@ Result<Credentials> read_keys(const fs::path& folder) {
 
 Result<> write_keys(const fs::path& folder, const Credentials& credentials) {
     if (::mkdir(folder.c_str(), 0700) != 0 && errno != EEXIST) return unwritable(folder);
-    for (const auto& [name, text] : {std::pair{"authority.crt", &credentials.authority},
-                                     std::pair{"member.crt", &credentials.own.certificate},
-                                     std::pair{"member.key", &credentials.own.key}})
+    for (const auto& [name, text] : key_files(credentials))
         if (Result<> written = write_private(folder / name, *text); !written) return written;
     return Ok{};
 }

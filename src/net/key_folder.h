@@ -2,13 +2,23 @@
 // not accepted any more: its serial, then anything. All are readable by their owner alone.
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <string>
+#include <utility>
 
 #include "core/result.h"
 #include "net/tls.h"
 
 namespace roboss {
+
+/// The files of a folder of keys: name and text of each.
+template <class C>  // Credentials, const or not
+auto key_files(C& credentials) {
+    return std::array{std::pair{"authority.crt", &credentials.authority},
+                      std::pair{"member.crt", &credentials.own.certificate},
+                      std::pair{"member.key", &credentials.own.key}};
+}
 
 /// An Error names the file: it is missing, or others may read a key.
 Result<Credentials> read_keys(const std::filesystem::path& folder);

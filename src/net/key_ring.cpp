@@ -4,9 +4,9 @@
 #include <sys/stat.h>
 
 #include <algorithm>
-#include <cctype>
 
 #include "net/key_folder.h"
+#include "net/meeting_place.h"
 
 namespace roboss {
 namespace {
@@ -18,11 +18,7 @@ constexpr int kAuthority_days = 3'650;
 }  // namespace
 
 Result<> check_holder_name(const std::string& name) {
-    const bool good = !name.empty() && name.size() <= 64 && name.front() != '.' &&
-                      std::all_of(name.begin(), name.end(), [](unsigned char c) {
-                          return std::isalnum(c) != 0 || c == '-' || c == '_' || c == '.';
-                      });
-    if (good) return Ok{};
+    if (is_file_name(name, 64)) return Ok{};
     return Error{"'" + name + "' is no name for a key",
                  "use at most 64 letters, digits, - _ and dots, and no dot at the start", "bad-name"};
 }

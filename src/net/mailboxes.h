@@ -29,11 +29,12 @@ class Mailboxes {
 
     /// From an address of this process. False: `envelope.to` is none.
     bool put_local(Envelope& envelope);
-    /// From the network; `bytes` is its length there. Dropped if nobody here has this address.
+    /// From the network; `bytes` is its length there. Dropped if this process does not have the address.
     void put(Envelope envelope, std::size_t bytes);
     bool full() const;
 
-    /// These addresses are gone or disconnected: mailboxes that they have sent to are told.
+    /// These addresses are gone or disconnected; take_vanished() reports it to the mailboxes that they have
+    /// sent to.
     void vanish(const std::set<Address>& gone);
     std::vector<Address> take_vanished(const Address& self);
 

@@ -18,10 +18,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-bool is_alive(pid_t pid) {
-    return pid > 0 && (::kill(pid, 0) == 0 || errno == EPERM);
-}
-
 struct Read {
     pid_t pid = 0;
     MeetingPlace::Note note;
@@ -37,7 +33,7 @@ std::optional<Read> read_address(const fs::path& folder) {
     return std::nullopt;
 }
 
-/// Of a living process.
+/// The note, if the process that left it lives.
 std::optional<MeetingPlace::Note> read_note(const fs::path& folder) {
     const std::optional<Read> read = read_address(folder);
     return read && is_alive(read->pid) ? std::optional(read->note) : std::nullopt;
@@ -54,6 +50,10 @@ void remove_dead(const fs::path& runs) {
 }
 
 }  // namespace
+
+bool is_alive(pid_t pid) {
+    return pid > 0 && (::kill(pid, 0) == 0 || errno == EPERM);
+}
 
 Result<fs::path> run_folder() {
     std::error_code error;
@@ -73,12 +73,15 @@ Result<fs::path> run_folder() {
     return folder;
 }
 
+bool is_file_name(const std::string& text, std::size_t most) {
+    return !text.empty() && text.size() <= most && text.front() != '.' &&
+           std::all_of(text.begin(), text.end(), [](unsigned char c) {
+               return std::isalnum(c) != 0 || c == '-' || c == '_' || c == '.';
+           });
+}
+
 Result<> check_simulation_name(const std::string& name) {
-    const bool good = !name.empty() && name.size() <= 100 && name.front() != '.' &&
-                      std::all_of(name.begin(), name.end(), [](unsigned char c) {
-                          return std::isalnum(c) != 0 || c == '-' || c == '_' || c == '.';
-                      });
-    if (good) return Ok{};
+    if (is_file_name(name, 100)) return Ok{};
     return Error{"'" + name + "' is not the name of a simulation",
                  "use at most 100 letters, digits, - _ and dots, and no dot at the start", "bad-name"};
 }

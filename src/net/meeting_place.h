@@ -2,6 +2,8 @@
 // and keys for them, in a private folder.
 #pragma once
 
+#include <sys/types.h>
+
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -39,6 +41,13 @@ class MeetingPlace {
     explicit MeetingPlace(std::filesystem::path folder) : folder_(std::move(folder)) {}
     std::filesystem::path folder_;
 };
+
+/// Whether a process has this id.
+bool is_alive(pid_t pid);
+
+/// Whether a text of at most so many bytes is the name of a file anywhere: letters, digits, - _ and dots, no
+/// dot at the start.
+bool is_file_name(const std::string& text, std::size_t most);
 
 /// Names of runs become names of files and parts of command lines: letters, digits, - _ and dots.
 Result<> check_simulation_name(const std::string& name);

@@ -16,7 +16,7 @@ struct HostPort {
     std::string address;  // IPv4
     std::uint16_t port = 0;
 };
-/// "HOST" (port 0) or "HOST:PORT". An Error: the port is no number, or nobody has this name now.
+/// "HOST" (port 0) or "HOST:PORT". An Error: the port is no number, or no computer has this name now.
 Result<HostPort> host_port(const std::string& text);
 
 /// Lets this process have as many connections as the system permits.

@@ -177,7 +177,7 @@ TEST(Strangers, NobodySpeaksInTheNameOfAnother) {
     expect_refused(*controller, *forger, "misbehaves", "in the name of another");
     honest->send(kOne, kControllerAddress, Expelled{SimulatorId(9u)});
     const auto all = receive(*controller, kControllerAddress, 1);
-    ASSERT_EQ(all.size(), 1u) << "the run goes on without the forger";
+    ASSERT_EQ(all.size(), 1u) << "the forger stops nobody else";
     EXPECT_EQ(std::get<Expelled>(all[0].message).simulator, SimulatorId(9u));
 }
 

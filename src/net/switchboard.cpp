@@ -261,14 +261,13 @@ void Switchboard::call() {
     t.caller = Tcp::socket(t.context);
     t.caller.async_connect({asio::ip::make_address_v4(end.value().address), port},
                            [this, at](const auto& error) {
-                               if (!error) return called(thread_->caller.release());
+                               if (!error) {
+                                   connect(thread_->caller.release(), thread_->calling_with);
+                                   return;
+                               }
                                thread_->calling = false;
                                report_trouble("no Controller answers at " + at + ": " + error.message());
                            });
-}
-
-void Switchboard::called(int socket) {
-    connect(socket, thread_->calling_with);
 }
 
 void Switchboard::ready(Connection& peer) {
@@ -343,7 +342,7 @@ void Switchboard::take_hello(Connection& peer, const Frame& frame) {
     peer.send_frame(FrameKind::kAccept, {});
 }
 
-/// Names the peer on this side, tells it on the other, and hangs up.
+/// Names the peer in the log, sends it the reason, and closes the connection.
 void Switchboard::refuse(Connection& peer, const std::string& code, const std::string& reason) {
     const std::string name = peer.session() != nullptr && !peer.session()->peer().name.empty()
                                  ? "'" + peer.session()->peer().name + "' "
@@ -494,7 +493,7 @@ void Switchboard::tick() {
     t.turn.async_wait([this](const auto&) { tick(); });
 }
 
-/// Keys may be revoked while the run goes on: the list is read again when its file changes.
+/// Keys may be revoked during a run: the list is read again when its file changes.
 void Switchboard::judge_again(std::int64_t now_ms) {
     Thread& t = *thread_;
     if (member_ || options_.keys.empty() || now_ms - t.judged_ms < kJudge_ms) return;

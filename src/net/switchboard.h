@@ -34,7 +34,7 @@ class Switchboard {
                                                      Mailboxes& mailboxes);
     ~Switchboard();
 
-    /// An encoded Envelope. Lost if nobody is connected who has `to`, or knows who has it.
+    /// An encoded Envelope. Lost if no connection leads to `to`.
     void send(const Address& to, std::vector<std::uint8_t> bytes, bool urgent);
     /// From now on sends these bytes while note_own() is not called; see Bus::keep_alive().
     void begin_beat(const Address& from, const Address& to, std::vector<std::uint8_t> bytes);
@@ -68,7 +68,6 @@ class Switchboard {
     // In the network's thread:
     void accept();
     void call();
-    void called(int socket);
     Peer connect(int socket, std::shared_ptr<const TlsContext> tls);
     void ready(Connection& peer);
     void take_frame(Connection& peer, const Frame& frame);

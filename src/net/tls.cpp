@@ -23,7 +23,8 @@ namespace {
 
 constexpr std::size_t kRecord = 16'384;  // plain bytes of a TLS record
 
-/// The verification result stays with the session; the handshake goes through, so that a refusal can be told.
+/// The verification result stays with the session; the handshake goes through, so that the reason can be
+/// sent.
 int accept_for_now(int, X509_STORE_CTX*) {
     return 1;
 }

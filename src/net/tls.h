@@ -1,6 +1,6 @@
 // TLS 1.3 with certificates on both sides, apart from any socket: bytes in, bytes out. Who is at the other
 // end is known when the handshake is over; a certificate that is not accepted does not end the session, so
-// that the other end can be told why.
+// that the reason can be sent to the other end.
 #pragma once
 
 #include <cstdint>

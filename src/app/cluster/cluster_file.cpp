@@ -120,10 +120,9 @@ void append(std::vector<std::string>& words, const std::vector<std::string>& mor
 }
 
 /// Where members find the Controller: at its address, else under the name by which its host is reached.
-std::string address_of_controller(Reading& read, const toml::table& controller) {
+std::string address_of_controller(Reading& read, const toml::table& controller, std::int64_t port) {
     const std::string host = read.text(controller, "host", "local"),
                       address = read.text(controller, "address", host == "local" ? "127.0.0.1" : host);
-    const std::int64_t port = controller.contains("port") ? read.number(controller, "port", 0, 65'535) : 0;
     return port == 0 ? address : fmt::format("{}:{}", address, port);
 }
 
@@ -142,12 +141,11 @@ void add_controller(Reading& read, const toml::table& root, ClusterFile& file) {
                            read.text(*table, "host", "local"),
                            {"controller", world, "--log", "-"},
                            {}};
-    file.controller = address_of_controller(read, *table);
+    const std::int64_t port = read.number(*table, "port", 0, 65'535);
+    file.controller = address_of_controller(read, *table, port);
     if (const std::string interface = read.text(*table, "interface", ""); !interface.empty())
         append(process.network, {"--interface", interface});
-    if (const std::int64_t port = table->contains("port") ? read.number(*table, "port", 0, 65'535) : 0;
-        port > 0)
-        append(process.network, {"--port", std::to_string(port)});
+    if (port > 0) append(process.network, {"--port", std::to_string(port)});
     append(process.arguments, read.texts(*table, "options"));
     file.processes.push_back(std::move(process));
 }

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "app/cluster/remote_shell.h"
+#include "net/key_folder.h"
 #include "net/key_ring.h"
 
 namespace roboss {
@@ -62,10 +63,11 @@ std::string key_script(const ClusterFile& file, const ClusterProcess& process, c
     for (const std::string& serial : keys.revoked) revoked += serial + "\n";
     std::string script = fmt::format("(umask 077; mkdir -p {0} && cd {0} && rm -f revoked || exit 3\n",
                                      folder_of_key(file, process));
-    for (const auto& [name, text] :
-         {std::pair{"authority.crt", &keys.authority}, std::pair{"member.crt", &keys.own.certificate},
-          std::pair{"member.key", &keys.own.key}, std::pair{"revoked", &std::as_const(revoked)}})
-        script += fmt::format("cat >{} <<'END-OF-KEY'\n{}END-OF-KEY\n", name, *text);
+    const auto write = [&](const char* name, const std::string& text) {
+        script += fmt::format("cat >{} <<'END-OF-KEY'\n{}END-OF-KEY\n", name, text);
+    };
+    for (const auto& [name, text] : key_files(keys)) write(name, *text);
+    write("revoked", revoked);
     return script + ") || exit 3\n";
 }
 

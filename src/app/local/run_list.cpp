@@ -18,10 +18,6 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::json;
 
-bool is_alive(pid_t pid) {
-    return pid > 0 && (::kill(pid, 0) == 0 || errno == EPERM);
-}
-
 /// None: the file is being written, or is not ours.
 std::optional<ListedRun> read_entry(const fs::path& file) {
     const Json entry = Json::parse(std::ifstream(file), nullptr, false);

@@ -10,6 +10,7 @@
 #include "core/similar.h"
 
 namespace roboss {
+
 std::vector<FindingGroup> group_findings(const Diagnostics& diagnostics, Severity severity) {
     std::vector<FindingGroup> groups;
     std::map<std::pair<std::string, std::string>, std::size_t> index;

@@ -1,4 +1,4 @@
-// What is wrong with one line of a file of orders.
+// Faults of one line of a file of orders.
 #pragma once
 
 #include <algorithm>
@@ -32,7 +32,7 @@ class LineFaults {
         Kind& kind = same != kinds_.end() ? *same : kinds_.emplace_back(Kind{pattern, fault, {}});
         kind.robots.push_back(robot);
     }
-    /// Whether any is an error: then the line gives no order.
+    /// True if any is an error: then the line gives no order.
     bool refuse() const {
         return std::ranges::any_of(kinds_,
                                    [](const Kind& kind) { return kind.fault.severity == Severity::kError; });
