@@ -19,8 +19,7 @@ cmake --install build/release --strip --prefix "$prefix" >build/python/install.l
 rm -rf "$raw"
 log=build/python/wheel.log
 if ! CMAKE_PREFIX_PATH=$prefix "$python" -m pip wheel ./python --no-deps --no-build-isolation --disable-pip-version-check \
-    --wheel-dir "$raw" --config-settings=cmake.define.ROBOSS_WORLDS="$PWD/worlds" \
-    --config-settings=cmake.define.ROBOSS_PREFIX="$prefix" >"$log" 2>&1; then
+    --wheel-dir "$raw" --config-settings=cmake.define.ROBOSS_PREFIX="$prefix" >"$log" 2>&1; then
     cat "$log" >&2
     printf 'build_wheel: the wheel could not be built (the log above is in %s)\n' "$log" >&2
     exit 1

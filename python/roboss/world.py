@@ -12,7 +12,7 @@ from . import _core
 from .errors import ArgumentError, WorldError, WorldWarning
 from .names import file_path, flag, listed, names_of, real, text, unknown
 
-_EXAMPLES = Path(__file__).parent / "worlds"
+_EXAMPLES = Path(__file__).parent / "program" / "share" / "roboss" / "worlds"
 
 
 class World:

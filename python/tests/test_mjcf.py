@@ -194,6 +194,24 @@ def curved_exactly(angle, seconds):
     return y[0]
 
 
+def test_a_curved_equality_moves_as_in_mujoco():
+    start = np.array([0.9, np.polynomial.Polynomial(CURVE)(0.9)])
+    model = mujoco.MjModel.from_xml_string(curved(2e-4, 'solref="0.0005 1" solimp=".9999 .9999 .001"'))
+    data = mujoco.MjData(model)
+    data.qpos[:] = start
+    sim = roboss.Simulation(curved(5e-4), threads=1)
+    assert sim.world.robots == ("a",)
+    robot = sim.robots("a")
+    robot.qpos = start
+    for tenth in range(1, 16):
+        mujoco.mj_step(model, data, 500)
+        sim.step(200)
+        mine = robot.qpos[0]
+        assert abs(mine[1] - np.polynomial.Polynomial(CURVE)(mine[0])) < 1e-6
+        assert abs(mine[0] - curved_exactly(0.9, tenth / 10)) < 2e-3
+        assert np.abs(mine - data.qpos).max() < 3e-3, (tenth, mine, data.qpos)
+
+
 KEYED = """<mujoco><compiler angle="radian"/><worldbody><geom type="plane" size="5 5 .1"/>
   <body name="hand" mocap="true" pos="3 0 1"><geom size=".05" contype="0" conaffinity="0"/></body>
   <body name="dog" pos="0 0 1" euler="0 0 .5"><freejoint/><geom type="box" size=".3 .2 .1"/>

@@ -12,6 +12,8 @@
 #include "app/commands/control_command.h"
 #include "app/commands/device_command.h"
 #include "app/commands/diff_command.h"
+#include "app/commands/doctor_command.h"
+#include "app/commands/examples_command.h"
 #include "app/commands/help_text.h"
 #include "app/commands/journal_command.h"
 #include "app/commands/keys_command.h"
@@ -32,7 +34,8 @@ namespace {
 /// By what they are for, in the order in which a newcomer needs them.
 void group_commands(CLI::App& app) {
     const std::pair<const char*, std::vector<const char*>> groups[] = {
-        {"Simulate a world", {"run", "check", "snapshot", "sense", "dataset", "new-client"}},
+        {"Simulate a world",
+         {"examples", "run", "check", "snapshot", "sense", "dataset", "new-client", "doctor"}},
         {"Drive real robots", {"device"}},
         {"Control and keep a run", {"control", "runs", "save", "replay", "journal", "diff"}},
         {"Look into a run", {"record", "plot", "analyse", "calibrate"}},
@@ -48,7 +51,7 @@ int main(int argc, char** argv) {
     CLI::App app{
         "RoBOSS simulates many robots in one physical world, with bit-identical results on any number of "
         "machines.\n"
-        "To start:  roboss check WORLD   then   roboss run WORLD --duration 10"};
+        "To start:  roboss run example:city   or   roboss check WORLD, then   roboss run WORLD"};
     app.require_subcommand(1);
     app.formatter(std::make_shared<roboss::HelpFormatter>());
     app.set_version_flag("--version", "roboss " ROBOSS_VERSION, "print the version");
@@ -56,12 +59,14 @@ int main(int argc, char** argv) {
     std::signal(SIGXFSZ,
                 SIG_IGN);  // a file at its size limit gives its writer an error instead of ending the run
     int exit_code = 0;
+    roboss::add_examples_command(app, exit_code);
     roboss::add_run_command(app, exit_code);
     roboss::add_check_command(app, exit_code);
     roboss::add_snapshot_command(app, exit_code);
     roboss::add_sense_command(app, exit_code);
     roboss::add_dataset_command(app, exit_code);
     roboss::add_new_client_command(app, exit_code);
+    roboss::add_doctor_command(app, exit_code);
     roboss::add_device_command(app, exit_code);
     roboss::add_control_command(app, exit_code);
     roboss::add_runs_command(app, exit_code);

@@ -278,8 +278,9 @@ bool splits_at_first(const aiMesh& mesh, const aiFace& face) {
            0;
 }
 
-/// Splits quadrangles of OBJ along the diagonal from their first corner, as MuJoCo does: where the corners
-/// are not in one plane, the volume depends on it. assimp takes the other one.
+/// Splits quadrangles of OBJ along the diagonal from their first corner, as MuJoCo does up to version 3:
+/// where the corners are not in one plane, the volume depends on it. MuJoCo 4 takes the shorter diagonal,
+/// assimp the other one.
 void split_quadrangles(aiMesh& mesh) {
     std::vector<aiFace> faces;
     for (unsigned f = 0; f < mesh.mNumFaces; ++f) {

@@ -27,6 +27,17 @@ class EqualityReader {
     EqualityReader(const Tree& tree, const Reading& reading)
         : tree_(tree), r_(reading), roots_(Robots::roots_in(tree)), fates_(Robots::fates_in(tree, roots_)) {}
 
+    /// The bodies of the two joints that an active <joint> ties, if the file has both.
+    std::optional<std::pair<std::size_t, std::size_t>> bodies_of_joints(const Element& element) const {
+        if (std::string(element.node.name()) != "joint") return std::nullopt;
+        const Attributes source = r_.defaults.of(element);
+        if (!r_.settings.equalities || !source.boolean("active", true)) return std::nullopt;
+        const auto first = tree_.find_joint(r_.names.full(source.text("joint1"))),
+                   second = tree_.find_joint(r_.names.full(source.text("joint2")));
+        if (!first || !second) return std::nullopt;
+        return std::pair{first->body, second->body};
+    }
+
     /// Of a <connect> or <weld> that takes effect. Problems are reported if `tells`.
     std::optional<Ends> ends_of(const Element& element, bool tells) const {
         const std::string kind = element.node.name();
@@ -189,10 +200,11 @@ std::vector<std::pair<std::size_t, std::size_t>> tied_bodies(const Tree& tree,
         if (equalities.empty()) continue;
         const EqualityReader reader(tree, part);
         for (const Element& element : equalities) {
-            const auto ends = reader.ends_of(element, false);
-            if (ends && fates[roots[ends->first]] == Fate::kFixed &&
-                fates[roots[ends->second]] == Fate::kFixed)
-                tied.emplace_back(ends->first, ends->second);
+            auto bodies = reader.bodies_of_joints(element);
+            if (const auto ends = reader.ends_of(element, false)) bodies = {ends->first, ends->second};
+            if (bodies && fates[roots[bodies->first]] == Fate::kFixed &&
+                fates[roots[bodies->second]] == Fate::kFixed)
+                tied.emplace_back(*bodies);
         }
     }
     return tied;

@@ -235,6 +235,19 @@ TEST(LoadMjcf, AnEqualityOfJointsMayBeAPolynomial) {
     EXPECT_EQ(mimic->multiplier, 2);
 }
 
+TEST(LoadMjcf, AnEqualityOfJointsTiesTwoFixedRobots) {
+    const Loaded tied = load_bodies(
+        "<body name='one'><joint name='a'/><geom size='.1'/></body>"
+        "<body name='two' pos='1 0 0'><joint name='d'/><geom size='.1'/></body>",
+        "<equality><joint joint1='d' joint2='a' polycoef='.1 2 .3 .4 .5'/></equality>");
+    ASSERT_TRUE(tied.world) << tied.text();
+    EXPECT_TRUE(tied.diagnostics.items().empty()) << tied.text();
+    ASSERT_EQ(tied.world->instances.size(), 1u);
+    const ModelSpec& model = *tied.model("one");
+    ASSERT_EQ(model.joints.size(), 2u);
+    EXPECT_TRUE(model.joints[1].axes[0].mimic);
+}
+
 TEST(LoadMjcf, PairsTouchWhateverTheMasksSay) {
     const std::string geom = " size='.1' contype='0' conaffinity='0'/><freejoint/></body>";
     const Loaded loaded =

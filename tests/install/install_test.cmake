@@ -17,7 +17,7 @@ foreach(wanted simulation/simulation.h client/control_program.h wire/control.h w
     message(FATAL_ERROR "the public header ${wanted} is not installed")
   endif()
 endforeach()
-foreach(internal physics/solver/newton.h gateway/exchange.h gateway/http_session.h sensors/test_model.h sdf/test_files.h dds/dds_bus.h)
+foreach(internal physics/solver/newton.h gateway/exchange.h gateway/http_session.h sensors/test_model.h sdf/test_files.h)
   if(internal IN_LIST headers)
     message(FATAL_ERROR "the internal header ${internal} is installed")
   endif()

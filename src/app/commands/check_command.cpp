@@ -14,6 +14,8 @@
 
 #include "app/commands/exit_codes.h"
 #include "app/output/findings.h"
+#include "app/run/run.h"
+#include "app/worlds/examples.h"
 #include "app/worlds/plugin_census.h"
 #include "app/worlds/world_census.h"
 #include "app/worlds/world_names.h"
@@ -260,10 +262,12 @@ int check(const std::string& file, const CheckOptions& options, nlohmann::json& 
 int check_all(const CheckOptions& options) {
     int worst = kSuccess;
     nlohmann::json reports = nlohmann::json::array();
-    for (const std::string& file : options.worlds) {
+    for (const std::string& world : options.worlds) {
         if (options.worlds.size() > 1 && !options.json)
-            fmt::print("{}== {}\n", file == options.worlds.front() ? "" : "\n", file);
-        worst = std::max(worst, check(file, options, reports));
+            fmt::print("{}== {}\n", world == options.worlds.front() ? "" : "\n", world);
+        const Result<std::string> file = world_file(world);
+        if (!file) return print(file.error()), kBadInput;
+        worst = std::max(worst, check(file.value(), options, reports));
     }
     const nlohmann::json& printed = reports.size() == 1 ? reports.front() : reports;
     if (options.json)

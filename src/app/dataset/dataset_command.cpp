@@ -75,7 +75,7 @@ void add_dataset_command(CLI::App& app, int& exit_code) {
         DatasetOptions& dataset = options->dataset;
         if (dataset.frames == 0 && !options->until_s && !options->duration_s) dataset.frames = kFrames;
         options->viewer.headless = true;
-        exit_code = Run(*options).go();
+        exit_code = run(*options);
     });
 }
 

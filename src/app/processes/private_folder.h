@@ -14,9 +14,10 @@ class PrivateFolder {
   public:
     /// In the system's folder for temporary files; none if that cannot be written.
     static std::optional<PrivateFolder> make(const std::string& purpose) {
-        std::error_code ignored;
-        std::string pattern =
-            (std::filesystem::temp_directory_path(ignored) / ("roboss-" + purpose + "-XXXXXX")).string();
+        std::error_code error;
+        const std::filesystem::path folder = std::filesystem::temp_directory_path(error);
+        if (error) return std::nullopt;
+        std::string pattern = (folder / ("roboss-" + purpose + "-XXXXXX")).string();
         if (mkdtemp(pattern.data()) == nullptr) return std::nullopt;
         return PrivateFolder(std::move(pattern));
     }

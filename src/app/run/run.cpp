@@ -15,6 +15,7 @@
 #include "app/processes/interrupt.h"
 #include "app/processes/threads.h"
 #include "app/run/run_outputs.h"
+#include "app/worlds/examples.h"
 #include "app/worlds/orders_file.h"
 #include "app/worlds/world_census.h"
 #include "client/plugin.h"
@@ -79,6 +80,35 @@ std::uint32_t first_simulator_id() {
 }
 
 }  // namespace
+
+namespace {
+
+/// Puts the files of an example in the place of its name.
+Result<> take_example(RunOptions& o) {
+    const Result<Example> example = find_example(o.world);
+    if (!example) return example.error();
+    o.world = example.value().world.string();
+    if (o.orders.empty()) o.orders = example.value().orders.string();
+    if (!o.clients.empty() || !o.clients_awaited.empty()) return Ok{};
+    for (std::size_t i = 0; i < example.value().programs.size(); ++i) {
+        const std::string& program = example.value().programs[i];
+        if (example.value().clients[i].empty())
+            return Error{
+                fmt::format("the control program {}.so of {} is not there", program, o.world),
+                fmt::format("build it (tools/build.sh release {}), or run {} without it", program, o.world),
+                "no-program"};
+        o.clients.push_back(example.value().clients[i].string());
+    }
+    return Ok{};
+}
+
+}  // namespace
+
+int run(RunOptions options) {
+    if (names_example(options.world))
+        if (const Result<> taken = take_example(options); !taken) return print(taken.error()), kBadInput;
+    return Run(options).go();
+}
 
 bool is_told_by_run(const Diagnostic& d) {
     return d.severity != Severity::kNote || d.code.starts_with("start-");

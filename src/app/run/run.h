@@ -30,6 +30,10 @@
 
 namespace roboss {
 
+/// Runs the world of `options`; of an example (example:NAME) with its programs and orders, where the options
+/// name no others. Returns the exit code.
+int run(RunOptions options);
+
 class Run {
   public:
     explicit Run(const RunOptions& options) : o_(options), progress_(options.shows_progress()) {}

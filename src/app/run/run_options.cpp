@@ -16,6 +16,7 @@ namespace roboss {
 namespace {
 
 const char* const kRunOptionsFooter = R"(Examples:
+  roboss run example:city                                    `roboss examples` lists more
   roboss run worlds/city.sdf --client build/release/lib/roboss_city_driver.so --duration 60
   roboss run world.sdf --orders orders.jsonl --trace trace.csv --trace-every 0.1
   roboss run world.sdf --duration 30 --save half.roboss      and later
@@ -216,7 +217,10 @@ void add_kept_options(CLI::App& command, RunOptions& o) {
 }
 
 void add_common_options(CLI::App& command, RunOptions& o) {
-    command.add_option("world", o.world, "the world: an SDF, URDF or MJCF file")->required();
+    command
+        .add_option("world", o.world,
+                    "the world: an SDF, URDF or MJCF file, or example:NAME (`roboss examples`)")
+        ->required();
     command.add_option("--path", o.paths,
                        "folder in which model:// and package:// URIs are looked up (may be repeated)");
     command.add_flag("--strict", o.strict,

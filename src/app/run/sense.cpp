@@ -103,7 +103,7 @@ void add_sense_command(CLI::App& app, int& exit_code) {
         options->viewer.headless = true;
         options->quiet_but_progress = !options->quiet;
         options->quiet = true;
-        exit_code = Run(*options).go();
+        exit_code = run(*options);
     });
 }
 

@@ -227,7 +227,7 @@ void add_snapshot_command(CLI::App& app, int& exit_code) {
         options->viewer.headless = look_through(options->snapshot, options->sense);
         options->quiet_but_progress = !options->quiet;
         options->quiet = true;
-        exit_code = Run(*options).go();
+        exit_code = run(*options);
     });
 }
 
