@@ -22,7 +22,7 @@ export const PROGRAM = process.env.ROBOSS_PROGRAM ?? "";
 const CHROMIUM =
     process.env.CHROMIUM ??
     ["/usr/bin/chromium", "/usr/bin/chromium-browser", "/usr/bin/google-chrome"].find((path) => existsSync(path));
-export const WAIT_MS = 60_000;
+export const WAIT_MS = 180_000;
 const LIMIT = { timeout: 5 * WAIT_MS };
 
 export interface Run {
