@@ -60,7 +60,7 @@ T may_lack(const T& residual) {
 /// How long Newton's method goes on, and from where it couples friction bounds to the normal impulses.
 struct Plan {
     double couple_from = 1e-2;  // residual
-    int far_max = 16;               // steps far from the balance
+    int far_max = 16;           // steps far from the balance
     int coupled_steps = 8, halvings = 0;
     double progress = 0.5;  // of the residual in a coupled step, at least
     int checks = 4;         // of the friction bounds, once momentum balances
