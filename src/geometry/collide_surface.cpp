@@ -42,11 +42,17 @@ class SurfaceCollider {
         const Vec3 n = turns ? -only_face.n : only_face.n;
         const double s_face = height - body_.reach(-n) - body_.ball();
         if (s_face > margin_) return;
-        number_ = number, triangle_ = surface_.triangle(number);
-        turned_ = false;
-        if (turns) turn_over();
-        const ClippedFeature over = points_over();
+        number_ = number;
         const bool shallow = s_face > -kShallow * body_.size();
+        if (height >= 0.0) {  // mostly the face alone tells all
+            take({only_face.v, only_face.n, {}, {}}, turns);
+            if (shallow && body_.is_pointed())
+                if (const ClippedFeature over = points_over(); !over.points.empty())
+                    return add_face(over, out_.candidates);
+            if (is_far()) return;
+        }
+        take(surface_.triangle(number), turns);
+        const ClippedFeature over = points_over();
         const bool ridge = std::any_of(triangle_.fold.begin(), triangle_.fold.end(),
                                        [](double fold) { return fold < kRidgeFold; });
         const bool over_it = !over.points.empty() && over.deepest() <= s_face + 1e-6 * body_.size();
@@ -55,7 +61,12 @@ class SurfaceCollider {
     }
 
   private:
-    /// The sheet seen from its other side.
+    /// `turns`: the sheet is seen from its other side.
+    void take(const SurfaceTriangle& triangle, bool turns) {
+        triangle_ = triangle, turned_ = false;
+        if (turns) turn_over();
+    }
+
     void turn_over() {
         triangle_.n = -triangle_.n;
         std::swap(triangle_.v[1], triangle_.v[2]);
@@ -107,7 +118,6 @@ class SurfaceCollider {
         if (found.across == Across::kNeighbour && (shallow || surface_.is_ground() || over.points.empty()))
             return add_face(over, out_.candidates);
         if (found.across != Across::kRidge) {
-            if (is_far()) return;
             const ConvexBody sheet(triangle_.v, triangle_.n);
             found.best = best_separation(body_, sheet, enough);
         }

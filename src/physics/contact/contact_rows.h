@@ -260,6 +260,7 @@ void set_friction_targets(const ContactT<T>& c, const ContactFrameT<T>& frame, d
 template <class T>
 void start_from_load(const ContactT<T>& c, const FrictionEllipse& friction, const ContactFrameT<T>& frame,
                      const MaskOf<T>& loaded, const T& compliance, ContactRowT<T>& row) {
+    row.loaded = loaded;
     if (!any(loaded)) return;
     set_friction_targets(c, frame, friction.across, compliance * (c.load / c.impulse), row.slip);
     const T t1 = row.slip.target_1, t2 = row.slip.target_2,

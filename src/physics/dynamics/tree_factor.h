@@ -71,7 +71,8 @@ void tree_solve(const DofPaths& paths, const T* a, T* x) {
 }
 
 /// The same for a matrix that is not symmetric, on the same pattern: `lower` holds A(i, j) and `upper` A(j,
-/// i) (the diagonal in `lower`). No pivoting: false for the lanes in which a pivot is not positive.
+/// i) (the diagonal in `lower`). No pivoting: false for the lanes in which a pivot is zero. A negative one is
+/// no harm: where friction grows with the normal impulse, the matrix is far from a positive one.
 template <class T>
 MaskOf<T> tree_factor_general(const DofPaths& paths, T* lower, T* upper) {
     constexpr bool kOne = std::is_same_v<T, double>;
@@ -82,7 +83,7 @@ MaskOf<T> tree_factor_general(const DofPaths& paths, T* lower, T* upper) {
         T* column = upper + paths.row(k);  // A(j, k)
         const int* path = paths.path(k);
         const std::size_t above = paths.length(k) - 1;
-        good = good & (row[above] > T(0));
+        good = good & ((row[above] > T(0)) | (row[above] < T(0)));  // nor not a number
         if (!any(good)) return good;
         const T inverse = T(1) / row[above];
         row[above] = inverse;

@@ -127,10 +127,25 @@ TEST(TreeFactor, TheTrunkBeginsEveryLaterPath) {
     EXPECT_EQ(DofPaths(std::vector<int>{-1, 0, -1}).trunk(), 0U) << "two roots";
 }
 
-TEST(TreeFactor, AMatrixWithoutPositivePivotsIsRefused) {
-    Example e(3, 4, false);
-    e.lower[0] = -1;
-    EXPECT_FALSE(tree_factor_general(e.paths, e.lower.data(), e.upper.data()));
+TEST(TreeFactor, ANegativePivotIsNoHarm) {
+    for (unsigned seed = 0; seed < 20; ++seed) {
+        const std::size_t n = 2 + seed % 12;
+        Example e(seed, n, false);
+        e.lower[e.paths.diagonal(n - 1)] = -5;
+        const std::vector<double> wanted(n, 0.7);
+        std::vector<double> x = e.times(wanted);
+        ASSERT_TRUE(tree_factor_general(e.paths, e.lower.data(), e.upper.data()));
+        tree_solve_general(e.paths, e.lower.data(), e.upper.data(), x.data());
+        for (std::size_t i = 0; i < n; ++i) EXPECT_NEAR(x[i], wanted[i], 1e-12);
+    }
+}
+
+TEST(TreeFactor, AZeroPivotIsRefusedAndWhatIsNoNumber) {
+    for (const double pivot : {0.0, std::nan("")}) {
+        Example e(3, 4, false);
+        e.lower[e.paths.diagonal(3)] = pivot;
+        EXPECT_FALSE(tree_factor_general(e.paths, e.lower.data(), e.upper.data()));
+    }
 }
 
 }  // namespace

@@ -59,8 +59,8 @@ T may_lack(const T& residual) {
 
 /// How long Newton's method goes on, and from where it couples friction bounds to the normal impulses.
 struct Plan {
-    double couple_from = kRoughly;  // residual
-    int far_max = 16;               // steps far from the balance
+    double couple_from = 1e-2;  // residual
+    int far_max = 16;           // steps far from the balance
     int coupled_steps = 8, halvings = 0;
     double progress = 0.5;  // of the residual in a coupled step, at least
     int checks = 4;         // of the friction bounds, once momentum balances
@@ -406,24 +406,33 @@ void Newton<T, Matrix>::return_to_start(const SolveProblem<T>& p, std::vector<T>
 }
 
 /// A first step to where the island would be if every contact did what it did in the last tick: mostly the
-/// solution. Leaves the balance there.
+/// solution, or near it. Friction bounds follow the normal impulses there. Leaves the balance.
 template <class T, class Matrix>
 void Newton<T, Matrix>::start_as_expected(const SolveProblem<T>& p, Lockstep<T>& together, std::vector<T>& v,
                                           SolveReportT<T>& report) {
     report.residual = balance(p);
     if (p.rows.contacts.empty()) return;  // and lanes need not agree on how far they are
     if (together(report.residual <= T(newton::kRoughly))) return;
+    const bool tied = !p.position && hessian_.couples();
     newton::set_curvatures(p.rows);
-    if (!together(newton::expect_sticking(p.rows))) return;
+    const newton::Expected<T> expected = newton::expect_loads(p.rows, tied);
+    if (!together(expected.some)) {
+        newton::update_impulses(p.rows);
+        return;
+    }
     keep_start(p, v);
+    friction::keep_bounds(p.rows, bounds_checked_);
     set_gradient(p);
-    find_step(p, false);
-    move(p, 1.0, v);
-    report.iterations += T(1);
     const T before = report.residual;
-    report.residual = balance(p);
-    if (together(report.residual <= before)) return;
-    return_to_start(p, v);
+    if (together(find_step(p, tied && together(expected.slides)))) {
+        move(p, 1.0, v);
+        report.iterations += T(1);
+        if (tied) friction::tie_bounds(p.rows);
+        report.residual = balance(p);
+        if (together(report.residual <= before)) return;
+        friction::set_bounds(p.rows, bounds_checked_);
+        return_to_start(p, v);
+    }
     report.residual = balance(p);
 }
 

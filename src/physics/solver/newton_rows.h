@@ -73,36 +73,62 @@ void set_curvatures(IslandRowsT<T>& rows) {
     });
 }
 
-/// Curvatures and impulses as if what stuck in the last tick stuck again. The velocities of the last tick are
-/// a bad witness of that, for a hard row takes the least of them for sliding. True where anything stuck.
 template <class T>
-MaskOf<T> expect_sticking(IslandRowsT<T>& rows) {
-    MaskOf<T> some = false;
+struct Expected {
+    MaskOf<T> some{false};    // a contact carried a load
+    MaskOf<T> slides{false};  // one whose friction is tied to its normal impulse slides
+};
+
+/// The disc of a loaded contact: it sticks, or slides in the direction of its velocity. `tied`: its bound
+/// follows the normal impulse, as it stands in `normal`.
+template <class T>
+MaskOf<T> expect_friction(const BoundedRowT<T>& normal, const MaskOf<T>& loaded, const MaskOf<T>& stuck,
+                          bool tied, FrictionDiscT<T>& disc) {
+    using std::sqrt;
+    const T speed = sqrt(disc.u_1 * disc.u_1 + disc.u_2 * disc.u_2);
+    const MaskOf<T> rubs = loaded & (disc.bound > T(0)), slides = rubs & (!stuck) & is_sliding(disc, speed),
+                    sticks = rubs & !slides;
+    disc.d_11 = select(sticks, disc.stiffness, disc.d_11);
+    disc.d_22 = select(sticks, disc.stiffness, disc.d_22);
+    disc.d_12 = select(sticks, T(0), disc.d_12);
+    disc.impulse_1 = select(sticks, -disc.u_1 * disc.stiffness, disc.impulse_1);
+    disc.impulse_2 = select(sticks, -disc.u_2 * disc.stiffness, disc.impulse_2);
+    if (!tied || !any(slides)) return false;
+    const T share = T(-disc.coefficient) / select(slides, speed, T(1)), impulse = share * normal.impulse,
+            change = share * normal.d;
+    disc.impulse_1 = select(slides, impulse * disc.u_1, disc.impulse_1);
+    disc.impulse_2 = select(slides, impulse * disc.u_2, disc.impulse_2);
+    disc.d_1n = select(slides, change * disc.u_1, disc.d_1n);
+    disc.d_2n = select(slides, change * disc.u_2, disc.d_2n);
+    return slides;
+}
+
+/// Curvatures and impulses as if every contact that carried a load in the last tick did so again, and stuck
+/// or slid as it did then. The velocities of the last tick are a bad witness of that: a hard row takes the
+/// least of them for parting, or for sliding. `tied`: friction bounds follow the normal impulses.
+template <class T>
+Expected<T> expect_loads(IslandRowsT<T>& rows, bool tied) {
+    Expected<T> expected;
     for (ContactRowT<T>& row : rows.contacts) {
-        const MaskOf<T>& sticks = row.sticks;
-        if (!any(sticks)) continue;
+        if (!any(row.loaded)) continue;
+        expected.some = expected.some | row.loaded;
         BoundedRowT<T>& normal = row.normal;
-        normal.d = select(sticks, normal.stiffness, normal.d);
-        normal.impulse = select(sticks, (normal.target - normal.u) * normal.stiffness, normal.impulse);
+        normal.d = select(row.loaded, normal.stiffness, normal.d);
+        normal.impulse = select(row.loaded, (normal.target - normal.u) * normal.stiffness, normal.impulse);
         FrictionDiscT<T>& slip = row.slip;
         if constexpr (std::is_same_v<T, double>) {
             if (slip_disc::slips(slip)) {
+                if (!row.sticks) continue;
                 const slip_disc::Sym2 d = slip_disc::inverse(slip_disc::compliance(slip));
                 const slip_disc::Plane t = slip_disc::times(d, {slip.u_1, slip.u_2});
                 slip.d_11 = d.xx, slip.d_12 = d.xy, slip.d_22 = d.yy;
                 slip.impulse_1 = -t.x, slip.impulse_2 = -t.y;
-                some = true;
                 continue;
             }
         }
-        slip.d_11 = select(sticks, slip.stiffness, slip.d_11);
-        slip.d_22 = select(sticks, slip.stiffness, slip.d_22);
-        slip.d_12 = select(sticks, T(0), slip.d_12);
-        slip.impulse_1 = select(sticks, -slip.u_1 * slip.stiffness, slip.impulse_1);
-        slip.impulse_2 = select(sticks, -slip.u_2 * slip.stiffness, slip.impulse_2);
-        some = some | sticks;
+        expected.slides = expected.slides | expect_friction(normal, row.loaded, row.sticks, tied, slip);
     }
-    return some;
+    return expected;
 }
 
 /// Minus the derivative of the rows' potentials along the step, at `alpha` of it.

@@ -160,8 +160,8 @@ struct ContactRowT {
     // gave no impulse.
     T unsprung{}, overlap{};
     bool joins = false;  // both sides have columns: two robots, or a robot that touches itself
-    // It carried a load in the last tick and did not slide: it probably will not now.
-    MaskOf<T> sticks{false};
+    // It carried a load in the last tick and did not slide; it carried one: probably it does the same now.
+    MaskOf<T> sticks{false}, loaded{false};
     double inverse_effective_mass = 1;  // 1/kg: mobility that its compliances are relative to
 };
 using ContactRow = ContactRowT<double>;

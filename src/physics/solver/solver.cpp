@@ -11,10 +11,10 @@ namespace {
 constexpr std::size_t kPile = 4;        // robots
 constexpr std::size_t kDrivenPile = 9;  // robots with motors
 constexpr newton::Plan kPilePlan{
-    .couple_from = 1e-2, .far_max = 30, .coupled_steps = 12, .halvings = 3, .progress = 0.3, .checks = 10};
+    .far_max = 30, .coupled_steps = 12, .halvings = 3, .progress = 0.3, .checks = 10};
 
-/// Robots that lean on each other: coupled steps begin early, and are shortened.
-constexpr newton::Plan kCrowdPlan{.couple_from = 1e-2, .halvings = 3, .progress = 0.3};
+/// Robots that lean on each other: coupled steps are shortened.
+constexpr newton::Plan kCrowdPlan{.halvings = 3, .progress = 0.3};
 
 /// Where Newton's method would turn one row after the other. Motors hold few robots apart from a pile: most
 /// of their wheels and feet do what they did in the last tick.
