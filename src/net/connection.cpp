@@ -31,9 +31,8 @@ std::span<std::uint8_t> arrivals() {
     return bytes;
 }
 
-template <class Value>
-void set_option(int socket, int option, Value value) {
-    ::setsockopt(socket, IPPROTO_TCP, option, &value, sizeof value);
+void set_option(int socket, int option, int value, int level = IPPROTO_TCP) {
+    ::setsockopt(socket, level, option, &value, sizeof value);
 }
 
 std::string name_of(const Tcp::socket& socket) {
@@ -166,8 +165,8 @@ bool Connection::send_message(std::vector<std::uint8_t> bytes, bool urgent) {
     return queue(overtakes ? urgent_ : waiting_, {std::move(bytes), 0, FrameKind::kWhole});
 }
 
-bool Connection::send_frame(FrameKind kind, const std::vector<std::uint8_t>& content) {
-    return queue(urgent_, {content, 0, kind});
+bool Connection::send_frame(FrameKind kind, const std::vector<std::uint8_t>& content, bool urgent) {
+    return queue(urgent ? urgent_ : waiting_, {content, 0, kind});
 }
 
 void Connection::close_after_sending() {
@@ -266,6 +265,25 @@ bool Connection::all_sent() const {
     if (!urgent_.empty() || !waiting_.empty() || wire_at_ < wire_.size()) return false;
     int in_kernel = 0;
     return ::ioctl(socket_->stream.native_handle(), SIOCOUTQ, &in_kernel) != 0 || in_kernel == 0;
+}
+
+void Connection::turn_deaf() {
+    const std::lock_guard lock(mutex_);
+    deaf = true;
+    urgent_.clear();
+    waiting_.clear();
+    waiting_bytes_ = 0;
+    const int socket = socket_->stream.native_handle();
+    set_option(socket, SO_KEEPALIVE, 1, SOL_SOCKET);
+    for (const auto& [option, value] : {std::pair{TCP_KEEPIDLE, 60}, {TCP_KEEPINTVL, 20}, {TCP_KEEPCNT, 3}})
+        set_option(socket, option, value);
+}
+
+std::string Connection::who() const {
+    std::string who;
+    if (session_ && !session_->peer().name.empty()) who += "'" + session_->peer().name + "' ";
+    if (!hello.name.empty()) who += hello.name + " ";
+    return who + "at " + where_;
 }
 
 // --- ending

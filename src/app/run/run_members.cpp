@@ -13,9 +13,9 @@
 namespace roboss {
 namespace {
 
-constexpr std::int64_t kSilence_ms = 1'000;     // silence after which a Simulator counts as lost
-constexpr std::int64_t kClientGone_ms = 5'000;  // a Client whose process is gone and does not come back
-constexpr double kCheckpointEvery_s = 0.2;      // of stepping time: bounds the work lost with a Simulator
+constexpr std::int64_t kSilence_ms = 1'000;      // silence after which a Simulator counts as lost
+constexpr std::int64_t kClientGone_ms = 10'000;  // a Client whose process is gone, until its successor joins
+constexpr double kCheckpointEvery_s = 0.2;       // of stepping time: bounds the work lost with a Simulator
 constexpr int kStartedAgainMax = 3;
 constexpr std::uint32_t kOnOneComputer_ms = 5'000;  // no network can fail: a slow process is only busy
 constexpr std::int64_t kJoin_ms = 7'000;            // without another process joining
@@ -127,10 +127,11 @@ std::vector<std::string> RunMembers::take_notices() {
     return std::exchange(notices_, {});
 }
 
-void RunMembers::await_exit(bool failed) {
+void RunMembers::end(const RunOver& over, bool abandoned) {
     if (open_bus_ == nullptr) return;
-    if (!failed) open_bus_->flush(1'000);
-    processes_.await_exit(failed ? 0 : kFarewell_ms);
+    open_bus_->say_farewell({over.reason, over.failed});
+    if (!abandoned) open_bus_->flush(1'000);
+    processes_.await_exit(abandoned ? 0 : kFarewell_ms);
 }
 
 }  // namespace roboss

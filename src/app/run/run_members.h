@@ -36,8 +36,9 @@ class RunMembers {
     Result<> look_after(const Simulation& simulation);
     /// What happened since the last call, one line each.
     std::vector<std::string> take_notices();
-    /// Waits some seconds for the processes to end after the Controller dismissed them; not after a failure.
-    void await_exit(bool failed);
+    /// Says why the run is over to all who are connected, and waits some seconds for the processes to end;
+    /// not if they are `abandoned`.
+    void end(const RunOver& over, bool abandoned);
 
   private:
     explicit RunMembers(const RunOptions& options) : o_(options) {}
