@@ -113,8 +113,7 @@ TEST(Frames, AnyBytesAreTakenOrTheStreamIsBroken) {
 }
 
 TEST(Frames, ContentsSurviveTheirBytes) {
-    const Result<Caller> hello =
-        decode_hello(encode_hello({kWireVersion, "city", "client", "node7/4711"}));
+    const Result<Caller> hello = decode_hello(encode_hello({kWireVersion, "city", "client", "node7/4711"}));
     ASSERT_TRUE(hello.ok());
     EXPECT_EQ(hello.value().simulation, "city");
     EXPECT_EQ(hello.value().name, "node7/4711");

@@ -90,9 +90,9 @@ class Switchboard {
     const NetOptions options_;
     const std::optional<Member> member_;
     Mailboxes& mailboxes_;
+    std::unique_ptr<Thread> thread_;  // the last to go: connections belong to its io_context
     Routes routes_;
     Beats beats_;
-    std::unique_ptr<Thread> thread_;
 
     mutable std::mutex mutex_;  // of what follows
     std::set<Peer> peers_;

@@ -4,9 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <iterator>
 #include <limits>
-#include <cstdlib>
 #include <random>
 
 namespace roboss {

@@ -117,8 +117,8 @@ class Simulators(unittest.TestCase):
             pages = int(Path(f"/proc/{second.process.pid}/statm").read_text().split()[0])
             limit = pages * resource.getpagesize()
             resource.prlimit(second.process.pid, resource.RLIMIT_AS, (limit, limit))
-            boxes = cluster.start("control", "add", WORLDS / "city.sdf", "--name", "city", "--pose", "100 0 0 0 0 0")
-            boxes.end(60)
+            rover = WORLDS.parent / "examples" / "first_robot" / "rover.urdf"
+            cluster.start("control", "add", rover, "--name", "cart", "--count", 400, "--grid", "2 2 20", "--pose", "100 0 0.5 0 0 0").end(60)
             self.assertEqual(second.end(30), RUN_FAILED, second.said() + controller.said())
             self.assertIn("[out-of-memory]", second.said())
             quit = cluster.start("control", "quit", "--yes")

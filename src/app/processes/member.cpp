@@ -18,7 +18,7 @@
 namespace roboss {
 namespace {
 
-constexpr std::int64_t kTurn_ms = 10;
+constexpr std::int64_t kTurn_ms = 25;  // messages end a turn sooner; many idle processes share a computer
 constexpr std::int64_t kResend_ms = 250;
 constexpr std::int64_t kReportWaiting_ms = 3'000;
 constexpr double kPatience_s = 60;  // without the Controller of a run that has begun: it may be started again

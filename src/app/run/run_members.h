@@ -53,6 +53,7 @@ class RunMembers {
     SimulatorProcesses processes_;
     std::int64_t patience_ms_ = 0;  // with processes that do not join
     std::vector<std::string> notices_;
+    std::int64_t looked_ms_ = 0;
     int started_again_ = 0;
 };
 
