@@ -156,7 +156,9 @@ bool Connection::queue(std::deque<Outgoing>& line, Outgoing message) {
         line.push_back(std::move(message));
         if (!waits_) failure = pump_locked();
     }
-    if (!failure.empty()) close(failure);
+    if (!failure.empty())
+        asio::post(socket_->context,
+                   [self = shared_from_this(), failure] { self->end_after_reading(failure); });
     return failure.empty();
 }
 
@@ -185,7 +187,7 @@ void Connection::wait_until_writable() {
                 self->waits_ = false;
                 failure = self->pump_locked();
             }
-            if (!failure.empty()) self->end(failure);
+            if (!failure.empty()) self->end_after_reading(failure);
         });
     });
 }
@@ -290,6 +292,17 @@ std::string Connection::who() const {
 
 void Connection::close(const std::string& reason) {
     asio::post(socket_->context, [self = shared_from_this(), reason] { self->end(reason); });
+}
+
+/// Nothing can be sent any more; what the other end said before may still be here.
+void Connection::end_after_reading(const std::string& reason) {
+    const std::span<std::uint8_t> into = arrivals();
+    while (!ended_) {
+        const ssize_t bytes = ::recv(socket_->stream.native_handle(), into.data(), into.size(), MSG_DONTWAIT);
+        if (bytes <= 0) break;
+        receive(into.first(static_cast<std::size_t>(bytes)));
+    }
+    end(reason);
 }
 
 void Connection::end(const std::string& reason) {

@@ -100,6 +100,7 @@ class Connection : public std::enable_shared_from_this<Connection> {
     bool fill_locked(std::string& failure);
     void add_pieces_locked();
     bool queue(std::deque<Outgoing>& line, Outgoing message);
+    void end_after_reading(const std::string& reason);
     void end(const std::string& reason);
 
     std::unique_ptr<Socket> socket_;

@@ -60,6 +60,9 @@ class Tokens(unittest.TestCase):
             self.assertEqual(stat.S_IMODE(file.stat().st_mode), 0o600)
             kept = file.read_text()
             self.assertEqual(len(re.findall(r"token=[0-9a-f]{32}", kept)), 3, kept)
+            end = time.monotonic() + 20
+            while not (FOLDER / "run.log").exists() and time.monotonic() < end:
+                time.sleep(0.01)
         finally:
             process.send_signal(signal.SIGINT)
             rest = process.stderr.read()
