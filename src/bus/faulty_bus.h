@@ -29,6 +29,8 @@ class FaultyBus : public Bus {
     void advance_clock(std::int64_t ms) { now_ms_ += ms; }
     /// Drops all messages to and from this address from now on, those in flight included.
     void cut_off(const Address& address) { cut_.insert(address); }
+    /// Until it is connected again.
+    void reconnect(const Address& address) { cut_.erase(address); }
     /// Reports to the Controller that this address has vanished, true or not.
     void spread_rumour(const Address& address) { rumours_.push_back(address); }
     std::vector<Address> take_vanished(const Address& self) override;

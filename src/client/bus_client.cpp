@@ -57,7 +57,7 @@ void BusClient::handle(Envelope& envelope) {
     } else if (const auto* unknown = std::get_if<ClientUnknown>(&envelope.message)) {
         if (unknown->client == id_) join_again();
     } else if (const auto* refused = std::get_if<Refused>(&envelope.message)) {
-        refusals_.add(refused->reason);
+        if (!id_.valid()) refusal_ = refused->reason;
     } else if (auto* answer = std::get_if<ControlReply>(&envelope.message)) {
         if (requests_.empty() || requests_.front().number != answer->number) return;
         answers_.push_back({std::move(requests_.front().action), std::move(answer->outcome)});
@@ -67,6 +67,7 @@ void BusClient::handle(Envelope& envelope) {
         outdated_ = outdated_ || !id_.valid();
     } else if (const auto* over = std::get_if<RunOver>(&envelope.message)) {
         over_ = over->reason;
+        failed_ = over->failed;
     }
 }
 
@@ -216,7 +217,7 @@ void BusClient::resend(Bus& bus) {
         bus.send(self_, kControllerAddress, requests_.front());
     }
     if (!id_.valid()) {
-        if (hello_resent_.due(now, first_resend_ms(), options_.resend_ms))
+        if (refusal_.empty() && hello_resent_.due(now, first_resend_ms(), options_.resend_ms))
             bus.send(self_, kControllerAddress, hello());
         return;
     }

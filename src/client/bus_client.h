@@ -67,11 +67,16 @@ class BusClient : public Client {
     std::uint64_t acknowledged() const { return acknowledged_; }
     /// Why the run has ended; empty: it has not.
     const std::string& over() const { return over_; }
+    /// It has ended because it could not go on.
+    bool failed() const { return failed_; }
+    /// Why the Controller does not take it: the text of an Error; empty: it has not refused it. It asks no
+    /// more.
+    const std::string& refusal() const { return refusal_; }
     /// The run has another Model than this one: make another BusClient with that.
     bool outdated() const { return outdated_; }
-    /// Refusals since the last call: by the Controller, and of orders here. Each text once.
+    /// Orders that were refused since the last call, by the Controller and here. Each text once.
     std::vector<std::string> take_refusals();
-    /// Those of orders alone; take_refusals() then has the others.
+    /// Those by the Controller alone; take_refusals() then has the others.
     std::vector<RefusedOrder> take_refused_orders() { return std::exchange(refused_orders_, {}); }
 
   protected:
@@ -139,7 +144,8 @@ class BusClient : public Client {
     Refusals refusals_;
     std::vector<RefusedOrder> refused_orders_;
     std::uint64_t refused_up_to_ = 0;  // sequence number of the last refusal taken
-    std::string over_;
+    std::string over_, refusal_;
+    bool failed_ = false;
 
     std::unique_ptr<RayScene> scene_;
     Tick scene_tick_ = -1;

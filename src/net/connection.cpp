@@ -31,9 +31,8 @@ std::span<std::uint8_t> arrivals() {
     return bytes;
 }
 
-template <class Value>
-void set_option(int socket, int option, Value value) {
-    ::setsockopt(socket, IPPROTO_TCP, option, &value, sizeof value);
+void set_option(int socket, int option, int value, int level = IPPROTO_TCP) {
+    ::setsockopt(socket, level, option, &value, sizeof value);
 }
 
 std::string name_of(const Tcp::socket& socket) {
@@ -157,7 +156,9 @@ bool Connection::queue(std::deque<Outgoing>& line, Outgoing message) {
         line.push_back(std::move(message));
         if (!waits_) failure = pump_locked();
     }
-    if (!failure.empty()) close(failure);
+    if (!failure.empty())
+        asio::post(socket_->context,
+                   [self = shared_from_this(), failure] { self->end_after_reading(failure); });
     return failure.empty();
 }
 
@@ -166,8 +167,8 @@ bool Connection::send_message(std::vector<std::uint8_t> bytes, bool urgent) {
     return queue(overtakes ? urgent_ : waiting_, {std::move(bytes), 0, FrameKind::kWhole});
 }
 
-bool Connection::send_frame(FrameKind kind, const std::vector<std::uint8_t>& content) {
-    return queue(urgent_, {content, 0, kind});
+bool Connection::send_frame(FrameKind kind, const std::vector<std::uint8_t>& content, bool urgent) {
+    return queue(urgent ? urgent_ : waiting_, {content, 0, kind});
 }
 
 void Connection::close_after_sending() {
@@ -186,7 +187,7 @@ void Connection::wait_until_writable() {
                 self->waits_ = false;
                 failure = self->pump_locked();
             }
-            if (!failure.empty()) self->end(failure);
+            if (!failure.empty()) self->end_after_reading(failure);
         });
     });
 }
@@ -268,10 +269,40 @@ bool Connection::all_sent() const {
     return ::ioctl(socket_->stream.native_handle(), SIOCOUTQ, &in_kernel) != 0 || in_kernel == 0;
 }
 
+void Connection::turn_deaf() {
+    const std::lock_guard lock(mutex_);
+    deaf = true;
+    urgent_.clear();
+    waiting_.clear();
+    waiting_bytes_ = 0;
+    const int socket = socket_->stream.native_handle();
+    set_option(socket, SO_KEEPALIVE, 1, SOL_SOCKET);
+    for (const auto& [option, value] : {std::pair{TCP_KEEPIDLE, 60}, {TCP_KEEPINTVL, 20}, {TCP_KEEPCNT, 3}})
+        set_option(socket, option, value);
+}
+
+std::string Connection::who() const {
+    std::string who;
+    if (session_ && !session_->peer().name.empty()) who += "'" + session_->peer().name + "' ";
+    if (!hello.name.empty()) who += hello.name + " ";
+    return who + "at " + where_;
+}
+
 // --- ending
 
 void Connection::close(const std::string& reason) {
     asio::post(socket_->context, [self = shared_from_this(), reason] { self->end(reason); });
+}
+
+/// Nothing can be sent any more; what the other end said before may still be here.
+void Connection::end_after_reading(const std::string& reason) {
+    const std::span<std::uint8_t> into = arrivals();
+    while (!ended_) {
+        const ssize_t bytes = ::recv(socket_->stream.native_handle(), into.data(), into.size(), MSG_DONTWAIT);
+        if (bytes <= 0) break;
+        receive(into.first(static_cast<std::size_t>(bytes)));
+    }
+    end(reason);
 }
 
 void Connection::end(const std::string& reason) {

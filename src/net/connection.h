@@ -9,6 +9,7 @@
 #include <functional>
 #include <memory>
 #include <mutex>
+#include <set>
 #include <span>
 #include <string>
 #include <vector>
@@ -43,7 +44,7 @@ class Connection : public std::enable_shared_from_this<Connection> {
 
     /// Any thread. False: it has ended, or more than `kWaitingMost` bytes wait already.
     bool send_message(std::vector<std::uint8_t> bytes, bool urgent);
-    bool send_frame(FrameKind kind, const std::vector<std::uint8_t>& content);
+    bool send_frame(FrameKind kind, const std::vector<std::uint8_t>& content, bool urgent = true);
     /// Any thread: sends what waits, and nothing more; then the other end closes it, or close().
     void close_after_sending();
     /// Any thread.
@@ -51,6 +52,9 @@ class Connection : public std::enable_shared_from_this<Connection> {
     /// Any thread: nothing is read any more, so that the other end has to wait, until resume().
     void pause();
     void resume();
+
+    /// The other end is silent: what waits is dropped. The kernel watches whether it is there.
+    void turn_deaf();
 
     /// Nothing waits here, nor in this computer's kernel.
     bool all_sent() const;
@@ -66,8 +70,14 @@ class Connection : public std::enable_shared_from_this<Connection> {
     /// "192.0.2.7:41233", of the other end.
     const std::string& where() const { return where_; }
 
+    /// "'sim-3' node7/4711 at 192.0.2.7:41233": all that is known about the other end, for the log.
+    std::string who() const;
+
     // The owner keeps here what it knows about the other end.
     std::atomic<bool> accepted = false;
+    std::atomic<bool> deaf = false;  // see turn_deaf(); what it still says does not count
+    bool no_room = false;            // taken only to be refused
+    std::set<Address> had;           // of a deaf one
     Caller hello;
 
     static constexpr std::size_t kWaitingMost = std::size_t{256} << 20;
@@ -90,6 +100,7 @@ class Connection : public std::enable_shared_from_this<Connection> {
     bool fill_locked(std::string& failure);
     void add_pieces_locked();
     bool queue(std::deque<Outgoing>& line, Outgoing message);
+    void end_after_reading(const std::string& reason);
     void end(const std::string& reason);
 
     std::unique_ptr<Socket> socket_;

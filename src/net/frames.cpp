@@ -1,10 +1,11 @@
 // Bytes of frames, and of the contents that only this layer knows.
 #include "net/frames.h"
 
-#include <algorithm>
 #include <cstring>
+#include <string_view>
 
 #include "core/archive.h"
+#include "core/printable.h"
 
 namespace roboss {
 namespace {
@@ -12,12 +13,9 @@ namespace {
 constexpr std::size_t kTextMost = 400;  // of a peer's words in logs and errors
 constexpr char kSign[] = {'R', 'o', 'B', 'O', 'S', 'S'};
 
-/// A peer's words as terminals and logs may show them: one line, no control characters, not without end.
-std::string harmless(std::string text) {
-    if (text.size() > kTextMost) text.resize(kTextMost);
-    std::replace_if(
-        text.begin(), text.end(), [](unsigned char c) { return c < 0x20 || c == 0x7F; }, '?');
-    return text;
+/// A peer's words, not without end.
+std::string harmless(const std::string& text) {
+    return printable_line(std::string_view(text).substr(0, kTextMost));
 }
 
 }  // namespace
@@ -43,7 +41,7 @@ bool FrameReader::next(Frame& frame) {
     std::memcpy(&length, bytes_.data() + at_, sizeof length);
     const std::uint8_t kind = bytes_[at_ + sizeof length];
     if (length > kFrameMost || kind < static_cast<std::uint8_t>(FrameKind::kHello) ||
-        kind > static_cast<std::uint8_t>(FrameKind::kOwn)) {
+        kind > static_cast<std::uint8_t>(FrameKind::kOver)) {
         broken_ = "it does not speak the protocol of RoBOSS";
         return false;
     }
@@ -69,7 +67,7 @@ Result<Caller> decode_hello(std::span<const std::uint8_t> bytes) {
     a.scalar(hello.version);
     for (std::string* text : {&hello.simulation, &hello.role, &hello.name}) {
         wire::field(a, *text);
-        *text = harmless(std::move(*text));
+        *text = harmless(*text);
     }
     if (a.failed() || a.left() > 0 || std::memcmp(sign, kSign, sizeof sign) != 0)
         return Error{"it does not speak the protocol of RoBOSS", "", "not-roboss"};
@@ -105,7 +103,24 @@ Refusal decode_refusal(std::span<const std::uint8_t> bytes) {
     wire::field(a, refusal.code);
     wire::field(a, refusal.reason);
     if (a.failed()) return {"refused", "no reason is given"};
-    return {harmless(std::move(refusal.code)), harmless(std::move(refusal.reason))};
+    return {harmless(refusal.code), harmless(refusal.reason)};
+}
+
+std::vector<std::uint8_t> encode_farewell(const Farewell& farewell) {
+    wire::Writer a;
+    wire::field(a, farewell.failed);
+    wire::field(a, farewell.reason);
+    return a.take();
+}
+
+Farewell decode_farewell(std::span<const std::uint8_t> bytes) {
+    wire::Reader a(bytes);
+    Farewell farewell;
+    wire::field(a, farewell.failed);
+    wire::field(a, farewell.reason);
+    if (a.failed()) return {true, "no reason is given"};
+    farewell.reason = printable(std::string_view(farewell.reason).substr(0, kTextMost));
+    return farewell;
 }
 
 }  // namespace roboss

@@ -59,7 +59,8 @@ std::string all_of(const std::vector<std::string>& lines) {
     return text;
 }
 
-/// The member is refused with this code, for a reason that has these words, and the Controller names it.
+/// The member is refused with this code, for a reason that has these words, and the Controller names it. The
+/// member guesses at no other reason.
 void expect_refused(StreamBus& controller, StreamBus& member, const std::string& code,
                     const std::string& words) {
     ASSERT_TRUE(becomes([&] { return member.refusal().has_value(); })) << all_of(member.take_notices());
@@ -70,6 +71,10 @@ void expect_refused(StreamBus& controller, StreamBus& member, const std::string&
         return (said += all_of(controller.take_notices())).find("[" + code + "]") != std::string::npos;
     })) << said;
     EXPECT_NE(said.find(words), std::string::npos) << said;
+    usleep(100'000);
+    const std::string guessed = all_of(member.take_notices());
+    EXPECT_EQ(guessed.find("--insecure"), std::string::npos) << guessed;
+    EXPECT_EQ(guessed.find("[reconnecting]"), std::string::npos) << guessed;
 }
 
 TEST(Strangers, MembersWithKeysOfTheRunTakePart) {
@@ -248,6 +253,21 @@ TEST(Strangers, RandomBytesDisturbNoRun) {
         })) << "insecure: "
             << insecure;
     }
+}
+
+TEST(Strangers, APeersWordsMoveNoCursor) {
+    const NetOptions options = loopback("escape");
+    const auto controller = controller_of(options);
+    const auto member = checked(StreamBus::join(options, "simulator",
+                                                "\x1b]0;mine\x07\xc2\x9b"
+                                                "31m\nline"));
+    ASSERT_TRUE(becomes([&] { return member->present(kControllerAddress); }));
+    member->say_farewell({"\x1b[2J gone", true});
+    std::string said;
+    EXPECT_TRUE(becomes(
+        [&] { return (said += all_of(controller->take_notices())).find("[left]") != std::string::npos; }));
+    EXPECT_NE(said.find("?]0;mine??31m line at 127.0.0.1"), std::string::npos) << said;
+    EXPECT_NE(said.find("?[2J gone"), std::string::npos) << said;
 }
 
 TEST(Strangers, CallersWhoSayNothingDoNotFillTheController) {

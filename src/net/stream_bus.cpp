@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "net/frames.h"
 #include "net/mailboxes.h"
 #include "net/switchboard.h"
 #include "wire/codec.h"
@@ -47,7 +48,7 @@ void StreamBus::send(const Address& from, const Address& to, Message message) {
     const bool urgent = std::holds_alternative<Heartbeat>(envelope.message);
     std::vector<std::uint8_t> bytes = encode(envelope);
     network_->mailboxes.count(from, to, bytes.size());
-    network_->switchboard->note_own(from, to);
+    network_->switchboard->beats().note_own(from, to);
     network_->switchboard->send(to, std::move(bytes), urgent);
 }
 
@@ -66,11 +67,11 @@ void StreamBus::wait(std::int64_t ms_max) {
 
 void StreamBus::keep_alive(const Address& from, const Address& to, const Heartbeat& heartbeat) {
     if (network_->mailboxes.has(to)) return;  // in this process, so in the same thread
-    network_->switchboard->begin_beat(from, to, encode(Envelope{from, to, heartbeat}));
+    network_->switchboard->beats().begin(from, to, encode(Envelope{from, to, heartbeat}));
 }
 
 void StreamBus::end_keep_alive(const Address& from) {
-    network_->switchboard->end_beat(from);
+    network_->switchboard->beats().end(from);
 }
 
 std::vector<Flow> StreamBus::flows() const {
@@ -87,6 +88,15 @@ std::optional<std::int64_t> StreamBus::heard_ms(const Address& address) const {
 
 std::optional<Error> StreamBus::refusal() const {
     return network_->switchboard->refusal();
+}
+
+std::optional<RunEnd> StreamBus::run_end() const {
+    const std::optional<Farewell> said = network_->switchboard->farewell();
+    return said ? std::optional(RunEnd{said->reason, said->failed}) : std::nullopt;
+}
+
+void StreamBus::say_farewell(const RunEnd& end) {
+    network_->switchboard->say_farewell({end.failed, end.reason});
 }
 
 bool StreamBus::flush(std::int64_t ms_max) {

@@ -14,6 +14,12 @@
 
 namespace roboss {
 
+/// Why there is nothing more to be expected of the other end.
+struct RunEnd {
+    std::string reason;
+    bool failed = false;
+};
+
 class StreamBus : public Bus {
   public:
     /// The Controller's process. An Error says which option does not fit this computer, that the port is
@@ -42,6 +48,12 @@ class StreamBus : public Bus {
     std::optional<std::int64_t> heard_ms(const Address& address) const;
     /// Of a member: why the Controller does not take it. It tries no more.
     std::optional<Error> refusal() const;
+    /// Of a member: the run is over, as the Controller said before it ended; nothing: it has not, or another
+    /// run has begun.
+    std::optional<RunEnd> run_end() const;
+    /// Says to all who are connected, and to those who were silent for so long that they count as lost, why
+    /// this process ends; of the Controller's process: why the run does.
+    void say_farewell(const RunEnd& end);
     /// Waits until the other computers have received all that was sent, at most so long. To be called before
     /// a process ends.
     bool flush(std::int64_t ms_max);

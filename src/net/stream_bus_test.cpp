@@ -3,9 +3,11 @@
 #include "net/stream_bus.h"
 
 #include <gtest/gtest.h>
+#include <sys/wait.h>
 
 #include <support/loopback_bus.h>
 #include <algorithm>
+#include <csignal>
 
 namespace roboss {
 namespace {
@@ -184,6 +186,88 @@ TEST(StreamBus, AConnectionInWhichNothingIsSaidLastsLongerThanALease) {
     EXPECT_TRUE(member->present(kControllerAddress));
     EXPECT_TRUE(controller->present(kOne));
     EXPECT_TRUE(member->take_notices().empty());
+}
+
+TEST(StreamBus, AMemberHearsWhyTheRunIsOver) {
+    const NetOptions options = loopback("over");
+    auto controller = controller_of(options);
+    const auto member = member_of(options, kOne);
+    ASSERT_TRUE(connected(*member));
+    EXPECT_FALSE(member->run_end());
+    controller->say_farewell({"its duration was over", false});
+    EXPECT_TRUE(controller->flush(1'000));
+    controller.reset();
+    ASSERT_TRUE(becomes([&] { return member->run_end() && !member->present(kControllerAddress); }));
+    EXPECT_EQ(member->run_end()->reason, "its duration was over");
+    EXPECT_FALSE(member->run_end()->failed);
+    EXPECT_TRUE(member->take_notices().empty()) << "nothing is lost";
+    controller = controller_of(options);
+    EXPECT_TRUE(becomes([&] { return member->present(kControllerAddress); }));
+    EXPECT_FALSE(member->run_end()) << "another run has begun";
+}
+
+/// A member in a process of its own that can be stopped. It writes why its run was over.
+class StoppedMember {
+  public:
+    explicit StoppedMember(const NetOptions& options) {
+        EXPECT_EQ(pipe(said_), 0);
+        process_ = fork();
+        if (process_ == 0) {
+            const auto member = member_of(options, kOne);
+            becomes([&] { return member->run_end().has_value(); });
+            const std::string reason = member->run_end() ? member->run_end()->reason : "nothing";
+            (void)!write(said_[1], reason.data(), reason.size());
+            _exit(0);
+        }
+        close(said_[1]);
+    }
+    ~StoppedMember() {
+        signal(SIGKILL);
+        waitpid(process_, nullptr, 0);
+        close(said_[0]);
+    }
+    void signal(int number) const { kill(process_, number); }
+    std::string said() const {
+        char text[200];
+        const ssize_t length = read(said_[0], text, sizeof text);
+        return {text, static_cast<std::size_t>(std::max<ssize_t>(length, 0))};
+    }
+
+  private:
+    pid_t process_ = -1;
+    int said_[2] = {-1, -1};
+};
+
+TEST(StreamBus, AMemberThatWasStoppedAcrossTheEndHearsOfItAfterwards) {
+    NetOptions options = loopback("stopped");
+    options.liveliness_ms = 300;
+    const StoppedMember member(options);  // before this process has threads
+    auto controller = controller_of(options);
+    ASSERT_TRUE(becomes([&] { return controller->present(kOne); }));
+    controller->send(kControllerAddress, kOne, Expelled{});
+    member.signal(SIGSTOP);
+    EXPECT_TRUE(becomes([&] { return !controller->present(kOne); })) << "it counts as lost";
+    controller->say_farewell({"a signal ended it", true});
+    controller->flush(500);
+    controller.reset();
+    usleep(200'000);
+    member.signal(SIGCONT);
+    EXPECT_EQ(member.said(), "a signal ended it");
+}
+
+TEST(StreamBus, AMemberThatWasStoppedForAWhileIsBack) {
+    NetOptions options = loopback("back");
+    options.liveliness_ms = 300;
+    const StoppedMember member(options);
+    const auto controller = controller_of(options);
+    for (int times = 0; times < 3; ++times) {
+        ASSERT_TRUE(becomes([&] { return controller->present(kOne); }));
+        member.signal(SIGSTOP);
+        EXPECT_TRUE(becomes([&] { return !controller->present(kOne); }));
+        usleep(300'000);
+        member.signal(SIGCONT);
+    }
+    EXPECT_TRUE(becomes([&] { return controller->present(kOne); }));
 }
 
 TEST(StreamBus, WhoSendsMoreThanIsReadHasToWait) {

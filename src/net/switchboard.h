@@ -1,10 +1,9 @@
 // Switchboard: the connections of a process, in a thread of their own. The Controller's takes calls and
 // passes on what is for others; a member's calls the Controller, again and again until it is there. Who is
-// silent is hung up on.
+// silent counts as lost.
 #pragma once
 
 #include <cstdint>
-#include <map>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -13,7 +12,10 @@
 #include <vector>
 
 #include "core/result.h"
+#include "net/beats.h"
+#include "net/frames.h"
 #include "net/net_options.h"
+#include "net/routes.h"
 #include "net/tls.h"
 #include "wire/message.h"
 
@@ -21,7 +23,6 @@ namespace roboss {
 
 class Connection;
 class Mailboxes;
-struct Frame;
 
 class Switchboard {
   public:
@@ -36,68 +37,68 @@ class Switchboard {
 
     /// An encoded Envelope. Lost if no connection leads to `to`.
     void send(const Address& to, std::vector<std::uint8_t> bytes, bool urgent);
-    /// From now on sends these bytes while note_own() is not called; see Bus::keep_alive().
-    void begin_beat(const Address& from, const Address& to, std::vector<std::uint8_t> bytes);
-    void end_beat(const Address& from);
-    void note_own(const Address& from, const Address& to);
+    Beats& beats() { return beats_; }
     /// To be called after mailboxes were emptied.
     void resume();
 
-    bool reaches(const Address& address) const;
+    bool reaches(const Address& address) const { return routes_.leads_to(address); }
     std::optional<Error> refusal() const;
+    /// What the Controller said when it ended; nothing: it has not, or another one is there.
+    std::optional<Farewell> farewell() const;
+    void say_farewell(const Farewell& farewell);
     bool all_sent() const;
     std::vector<std::string> take_notices();
     std::string where() const;
 
   private:
     struct Thread;
-    using Peer = std::shared_ptr<Connection>;
-
-    /// A heartbeat for a role whose step is long.
-    struct Beat {
-        Address to;
-        std::vector<std::uint8_t> bytes;
-        std::int64_t own_ms = 0;
-    };
+    using Peer = Routes::Peer;
 
     Switchboard(const NetOptions& options, std::optional<Member> member, Mailboxes& mailboxes);
     Result<> listen();
     Result<> check_keys() const;
     void run();
 
-    // In the network's thread:
-    void accept();
-    void call();
+    // In the network's thread. switchboard.cpp: messages
     Peer connect(int socket, std::shared_ptr<const TlsContext> tls);
-    void ready(Connection& peer);
     void take_frame(Connection& peer, const Frame& frame);
-    void take_hello(Connection& peer, const Frame& frame);
     void take_message(Connection& peer, std::vector<std::uint8_t> bytes);
     bool owns(Connection& peer, const Address& from);
-    void closed(Connection& peer, const std::string& reason);
+
+    // switchboard_calls.cpp: calls, answers and ends
+    void accept();
+    void take_call(int socket);
+    void accept_has_failed(const std::string& why, bool for_want_of_files);
+    void call();
+    void ready(Connection& peer);
+    void take_hello(Connection& peer, const Frame& frame);
+    void take_accept(Connection& peer);
+    void take_farewell(Connection& peer, const Frame& frame);
     void refuse(Connection& peer, const std::string& code, const std::string& reason);
     void give_up(Connection& peer, Error error);
+    void closed(Connection& peer, const std::string& reason);
+    void report_trouble(const std::string& what);
+
+    // switchboard_time.cpp: what happens by time alone
     void tick();
     void look_after(const Peer& peer, std::int64_t now_ms);
-    void send_beats(std::int64_t now_ms);
+    void lose(const Peer& peer);
     void judge_again(std::int64_t now_ms);
 
     void notice(std::string line);
-    void report_trouble(const std::string& what);
-    Peer way_to(const Address& address) const;  // with mutex_ held
 
     const NetOptions options_;
     const std::optional<Member> member_;
     Mailboxes& mailboxes_;
-    std::unique_ptr<Thread> thread_;
+    std::unique_ptr<Thread> thread_;  // the last to go: connections belong to its io_context
+    Routes routes_;
+    Beats beats_;
 
     mutable std::mutex mutex_;  // of what follows
     std::set<Peer> peers_;
-    std::map<Address, Peer> routes_;
-    Peer controller_;  // of a member: accepted
-    std::map<Address, Beat> beats_;
     std::vector<std::string> notices_;
     std::optional<Error> refusal_;
+    std::optional<Farewell> farewell_;
     std::string where_, trouble_;
 };
 

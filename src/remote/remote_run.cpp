@@ -5,6 +5,7 @@
 
 #include "bus/model_pull.h"
 #include "client/bus_client.h"
+#include "core/error_text.h"
 #include "net/stream_bus.h"
 #include "visuals/visual_fetch.h"
 
@@ -39,6 +40,9 @@ class Patience {
         bus_.wait(kTurn_ms);
         if (!go_on()) return interrupted();
         if (std::optional<Error> refusal = bus_.refusal()) return *refusal;
+        const std::optional<RunEnd> ended = bus_.run_end();
+        if (std::exchange(end_seen_, ended.has_value()) && ended)
+            return Error{"the run is over: " + ended->reason, "connect to another one", "run-over"};
         const std::int64_t now = bus_.now_ms();
         if (bus_.present(kControllerAddress)) seen_ms_ = now;
         if (static_cast<double>(now - seen_ms_) > 1e3 * o_.patience_s) return no_controller(o_);
@@ -49,6 +53,7 @@ class Patience {
     StreamBus& bus_;
     const RemoteOptions& o_;
     std::int64_t seen_ms_;
+    bool end_seen_ = false;  // what was sent before it is to be taken first
 };
 
 }  // namespace
@@ -122,10 +127,9 @@ Result<> RemoteRun::wait_until(const std::function<bool()>& done, const GoOn& go
             return Error{"the run is over: " + client_->over(), "connect to another one", "run-over"};
         if (client_->outdated() && !even_outdated)
             return Error{"the world of the run has changed", "connect again", "changed-world"};
-        if (!client_->joined())
-            for (const std::string& reason : client_->take_refusals())
-                return Error{"the run refuses the Client '" + options_.name + "': " + reason,
-                             "choose another name", "refused"};
+        if (!client_->refusal().empty())
+            return error_of_text("the run refuses the Client '" + options_.name + "': ", client_->refusal(),
+                                 "connect again", "refused");
         if (Result<> waited = patience.wait(go_on); !waited) return waited;
     }
 }

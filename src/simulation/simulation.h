@@ -124,6 +124,8 @@ class Simulation {
     void dismiss(const RunOver& over) { controller_.dismiss(*bus_, over); }
 
     // --- how the run is distributed, for display
+    /// Whose answer or arrival the world waits for; empty: nobody's.
+    std::string waits_for() const { return controller_.waits_for(); }
     /// All Simulators and Clients that the first window waits for have joined.
     bool started() const { return controller_.started(); }
     /// All Simulators that have joined so far, those that left or were lost included.

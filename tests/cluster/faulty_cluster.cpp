@@ -35,7 +35,7 @@ void FaultyCluster::add_simulator() {
     options.measure_cpu = false;
     options.look_up = 1;
     options.cut_least_ns = 0;
-    simulators_.push_back({std::make_unique<Simulator>(model_, address, options, pool_), address, 0});
+    simulators_.push_back({std::make_unique<Simulator>(model_, address, options, pool_), address});
 }
 
 void FaultyCluster::kill(std::size_t i) {
@@ -57,8 +57,20 @@ void FaultyCluster::make_trouble() {
         simulators_[bus_.random(simulators_.size())].role->leave();
     if (!simulators_.empty() && happens(trouble_.rumour))
         bus_.spread_rumour(simulators_[bus_.random(simulators_.size())].address);
+    if (trouble_.partition > 0) make_partitions();
     if (happens(trouble_.join) && simulators_.size() < 6) add_simulator();
     if (simulators_.empty() && happens(trouble_.rescue)) add_simulator();
+}
+
+/// Some are shorter than the time after which a Simulator counts as lost, some longer.
+void FaultyCluster::make_partitions() {
+    if (!simulators_.empty() && happens(trouble_.partition)) {
+        Member& member = simulators_[bus_.random(simulators_.size())];
+        member.cut_for = 50 + static_cast<int>(bus_.random(800));
+        bus_.cut_off(member.address);
+    }
+    for (Member& member : simulators_)
+        if (member.cut_for > 0 && --member.cut_for == 0) bus_.reconnect(member.address);
 }
 
 /// To who has none already.

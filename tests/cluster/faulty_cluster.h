@@ -16,8 +16,9 @@ namespace roboss::test {
 struct Trouble {
     // chances per turn, in 1/100000
     std::uint64_t kill = 0, hang = 0, leave = 0, join = 0;
-    std::uint64_t rescue = 0;  // that a Simulator joins when none is left
-    std::uint64_t rumour = 0;  // that a living Simulator is said to have vanished
+    std::uint64_t rescue = 0;     // that a Simulator joins when none is left
+    std::uint64_t rumour = 0;     // that a living Simulator is said to have vanished
+    std::uint64_t partition = 0;  // that the network to a Simulator is cut for a while; it steps on
 };
 
 /// A network that loses, doubles and delays some messages, by the seed.
@@ -61,12 +62,14 @@ class FaultyCluster {
         std::unique_ptr<Simulator> role;
         Address address;
         int hangs_for = 0;   // turns
+        int cut_for = 0;     // turns
         bool at_it = false;  // has its turn
     };
     void give_turn(std::size_t role);
     void let_others_go_on();
     std::size_t roles() const { return 1 + hosts_.size() + simulators_.size(); }
     void make_trouble();
+    void make_partitions();
     bool happens(std::uint64_t chance) { return bus_.random(100'000) < chance; }
 
     std::shared_ptr<const Model> model_;

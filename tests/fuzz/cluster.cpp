@@ -1,5 +1,5 @@
-// Property: a cluster with a bad network, whose Simulators are killed, hang, leave and join at random
-// moments, ends with the state hash of the undisturbed run.
+// Property: a cluster with a bad network, whose Simulators are killed, hang, are cut off, leave and join at
+// random moments, ends with the state hash of the undisturbed run.
 #include <cstdio>
 #include <memory>
 #include <utility>
@@ -15,7 +15,7 @@ namespace roboss::fuzz {
 namespace {
 
 constexpr int kTurnsMost = 400'000;
-constexpr test::Trouble kTrouble{150, 60, 50, 250, 2000};
+constexpr test::Trouble kTrouble{150, 60, 50, 250, 2000, 0, 60};
 
 struct Outcome {
     Tick tick = 0;

@@ -28,9 +28,9 @@ def free_port():
 class Member:
     """A process of the run; what it says goes to a file, so that nobody waits for a reader."""
 
-    def __init__(self, *arguments):
+    def __init__(self, *arguments, **how):
         self.log = tempfile.TemporaryFile(mode="w+", dir=FOLDER)
-        self.process = subprocess.Popen([ROBOSS, *map(str, arguments)], stdout=self.log, stderr=subprocess.STDOUT)
+        self.process = subprocess.Popen([ROBOSS, *map(str, arguments)], stdout=self.log, stderr=subprocess.STDOUT, **how)
 
     def said(self):
         self.log.flush()
@@ -51,6 +51,11 @@ class Member:
             return self.process.wait(timeout=timeout_s)
         except subprocess.TimeoutExpired:
             raise AssertionError(f"it does not end:\n{self.said()}") from None
+
+    def kill_only(self):
+        """Kills it; what it said is still there."""
+        self.process.kill()
+        self.process.wait()
 
     def kill(self):
         if self.process.poll() is None:
@@ -78,9 +83,9 @@ class Cluster:
         for member in self.members:
             member.kill()
 
-    def start(self, *arguments):
+    def start(self, *arguments, **how):
         where = ["--port", self.port] if arguments[0] in ("controller", "run") else self.place
-        self.members.append(Member(*arguments, "--simulation", self.name, *where))
+        self.members.append(Member(*arguments, "--simulation", self.name, *where, **how))
         return self.members[-1]
 
     @property
@@ -93,11 +98,11 @@ class Cluster:
         self.members.append(Member(*arguments))
         return self.members[-1]
 
-    def controller(self, *arguments):
-        return self.start("controller", *arguments, *as_fast_as_possible(arguments), "--json", self.json)
+    def controller(self, *arguments, **how):
+        return self.start("controller", *arguments, *as_fast_as_possible(arguments), "--json", self.json, **how)
 
-    def simulator(self, *arguments):
-        return self.start("simulator", "--patience", 20, *arguments)
+    def simulator(self, *arguments, **how):
+        return self.start("simulator", "--patience", 20, *arguments, **how)
 
     def summary(self, controller):
         code = controller.end()

@@ -205,6 +205,21 @@ class Reach(unittest.TestCase):
         for i in ids:
             self.assertFalse(Path(f"/proc/{i}/cmdline").exists() and Path(f"/proc/{i}/cmdline").read_bytes(), "it runs on")
 
+    def test_logs_are_for_their_owner_alone(self):
+        logs = self.folder / ".roboss" / "logs"
+        logs.mkdir(parents=True)
+        old = logs / f"reach-{os.getpid()}-controller.log"
+        old.write_text("of an earlier run")
+        old.chmod(0o644)
+        self.cluster("up", 0)
+        try:
+            modes = {log.name: oct(log.stat().st_mode & 0o777) for log in logs.iterdir()}
+            self.assertEqual(len(modes), 13, modes)
+            self.assertEqual(set(modes.values()), {"0o600"}, modes)
+            self.assertNotIn("earlier", old.read_text())
+        finally:
+            self.cluster("down", 0)
+
 
 if __name__ == "__main__":
     unittest.main()

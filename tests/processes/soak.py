@@ -3,14 +3,21 @@
 that of one process. Not part of the tests: it takes minutes and measures the machine it runs on.
 
     tests/processes/soak.py build/release/bin/roboss --processes 64 --times 20
+    tests/processes/soak.py build/release/bin/roboss --processes 64 --times 5 --duration 20 --kill 10
+
+With --kill so many of the processes are killed at random moments, and as many others join. It prints the Controller's memory
+and CPU time for each member.
 """
 import argparse
 import json
 import os
+import random
+import signal
 import statistics
 import subprocess
 import sys
 import tempfile
+import threading
 import time
 from pathlib import Path
 
@@ -30,6 +37,36 @@ def memory_of(pid):
     return pss, threads
 
 
+def cost_of(pid):
+    """Private memory of a process (MiB) and the CPU time that it has taken (s)."""
+    lines = Path(f"/proc/{pid}/smaps_rollup").read_text().splitlines()
+    mib = sum(int(line.split()[1]) for line in lines if line.startswith("Private")) / 1024
+    ticks = Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()
+    return mib, (int(ticks[11]) + int(ticks[12])) / os.sysconf("SC_CLK_TCK")
+
+
+class Killer(threading.Thread):
+    """Kills a process of a run now and then, and has another one join."""
+
+    def __init__(self, roboss, run, count, seed):
+        super().__init__(daemon=True)
+        self.roboss, self.run_pid, self.count, self.chance = roboss, run.pid, count, random.Random(seed)
+        self.killed = 0
+
+    def run(self):
+        while self.killed < self.count:
+            time.sleep(self.chance.uniform(0.05, 1.0))
+            try:
+                children = Path(f"/proc/{self.run_pid}/task/{self.run_pid}/children").read_text().split()
+                if len(children) < 2:
+                    continue
+                os.kill(int(self.chance.choice(children)), signal.SIGKILL)
+                self.killed += 1
+                subprocess.run([self.roboss, "control", "--simulation", str(self.run_pid), "simulators", "add"], capture_output=True, timeout=60)
+            except (OSError, subprocess.TimeoutExpired):
+                return  # the run has ended
+
+
 class Soak:
     def __init__(self, options, folder):
         self.options = options
@@ -44,6 +81,15 @@ class Soak:
         subprocess.run(self.run("--quiet"), check=True, stdout=subprocess.DEVNULL)
         return json.loads(self.summary.read_text())["state_hash"]
 
+    def report(self, pid):
+        """What all of them take, and the Controller for each."""
+        pss, threads = memory_of(pid)
+        mib, cpu_s = cost_of(pid)
+        count = self.options.processes
+        if pss:
+            print(f"    {max(threads)} threads and {statistics.mean(pss):.1f} MiB (PSS) a process; the Controller: {mib / count:.2f} MiB and "
+                  f"{1e3 * cpu_s / count:.1f} ms of CPU time for each that joined", flush=True)
+
     def once(self, expected):
         """Seconds until all had joined and until the end; an error, or nothing."""
         began, joined_s, joined, said = time.monotonic(), None, 0, []
@@ -53,9 +99,9 @@ class Soak:
             joined += " joined at tick " in line
             if joined == self.options.processes and joined_s is None:
                 joined_s = time.monotonic() - began
-                pss, threads = memory_of(process.pid)
-                if pss:
-                    print(f"    {max(threads)} threads and {statistics.mean(pss):.1f} MiB (PSS) a process", flush=True)
+                self.report(process.pid)
+                killer = Killer(self.options.roboss, process, self.options.kill, len(said))
+                killer.start()
         code, took = process.wait(), time.monotonic() - began
         found = json.loads(self.summary.read_text()) if self.summary.exists() else {}
         if code != 0 or joined_s is None:
@@ -72,6 +118,7 @@ def main():
     parser.add_argument("--processes", type=int, default=64)
     parser.add_argument("--times", type=int, default=20)
     parser.add_argument("--within", type=float, default=20, help="until all have joined, s")
+    parser.add_argument("--kill", type=int, default=0, help="so many processes at random moments; others join")
     parser.add_argument("--world", default=str(WORLDS / "crossroads.sdf"))
     parser.add_argument("--orders", default=str(WORLDS / "crossroads.jsonl"), help="'' for none")
     parser.add_argument("--duration", type=float, default=1.2)

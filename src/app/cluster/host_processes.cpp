@@ -82,15 +82,17 @@ std::string starting_script(const ClusterFile& file, const std::vector<std::size
             ? "\"is not found by PATH, which is $PATH there: give its full path as program [no-program]\""
             : "\"does not exist there [no-program]\"";
     std::string script = in_folder(file) + fmt::format(R"(folder="${{HOME:-/tmp}}/.roboss/logs"
-mkdir -p "$folder" || exit 3
+(umask 077; mkdir -p "$folder") || exit 3
 command -v {0} >/dev/null || {{ echo {0} {1}; exit 3; }}
 )",
                                                        program, absent);
     for (const std::size_t i : indices) {
         const ClusterProcess& process = file.processes[i];
         if (!file.insecure) script += key_script(file, process, keys[i]);
-        script += fmt::format("setsid nohup {} >{} 2>&1 </dev/null &\npid{}=$!\n",
-                              command_line(file, process, process.arguments), path_of_log(file, process), i);
+        // A log is for its owner alone.
+        script += fmt::format(
+            "rm -f {0}; (umask 077; : >{0}) || exit 3\nsetsid nohup {1} >>{0} 2>&1 </dev/null &\npid{2}=$!\n",
+            path_of_log(file, process), command_line(file, process, process.arguments), i);
     }
     script += "sleep 0.5\n";
     for (const std::size_t i : indices)

@@ -14,6 +14,7 @@
 
 #include "app/commands/exit_codes.h"
 #include "app/output/findings.h"
+#include "app/output/say.h"
 #include "app/run/run.h"
 #include "app/worlds/examples.h"
 #include "app/worlds/plugin_census.h"
@@ -57,15 +58,15 @@ std::string counts(const std::map<std::string, std::size_t>& by_kind) {
 }
 
 void print_text(const World& world, const WorldCensus& census) {
-    fmt::print("world          {} ({})\n", world.name, world.file);
-    fmt::print("robots         {} of {} type{}, {} links\n", census.robots, census.robot_types,
-               census.robot_types == 1 ? "" : "s", census.links);
-    fmt::print("static models  {}\n", census.static_models);
-    fmt::print("joints         {}\n", counts(census.joints));
-    fmt::print("shapes         {}\n", counts(census.shapes));
-    fmt::print("sensors        {}{}\n", counts(census.sensors),
-               census.silent.empty() ? "" : "; without readings: " + counts(census.silent));
-    fmt::print("time step      {} s\n", world.dt_s);
+    say("world          {} ({})\n", world.name, world.file);
+    say("robots         {} of {} type{}, {} links\n", census.robots, census.robot_types,
+        census.robot_types == 1 ? "" : "s", census.links);
+    say("static models  {}\n", census.static_models);
+    say("joints         {}\n", counts(census.joints));
+    say("shapes         {}\n", counts(census.shapes));
+    say("sensors        {}{}\n", counts(census.sensors),
+        census.silent.empty() ? "" : "; without readings: " + counts(census.silent));
+    say("time step      {} s\n", world.dt_s);
 }
 
 /// "linear_x (m/s), angular_z (rad/s)"
@@ -82,12 +83,12 @@ void print_text(const std::vector<TypeCommands>& types) {
     for (const TypeCommands& type : types) {
         if (type.is_repeated) continue;
         const std::size_t others = type.robots - 1 + type.alike;
-        fmt::print("{:15}{}{}{}\n", type.is_board ? "messages of" : "commands of",
-                   type.is_board ? "the world" : type.first,
-                   others > 0 ? fmt::format(" and {} like it", others) : "",
-                   type.alike > 0 ? ", with names of their own (--names)" : "");
+        say("{:15}{}{}{}\n", type.is_board ? "messages of" : "commands of",
+            type.is_board ? "the world" : type.first,
+            others > 0 ? fmt::format(" and {} like it", others) : "",
+            type.alike > 0 ? ", with names of their own (--names)" : "");
         for (const Channel& command : type.commands)
-            fmt::print("    {}: {} [{}]\n", command.name, values_of(command), command.topic);
+            say("    {}: {} [{}]\n", command.name, values_of(command), command.topic);
     }
 }
 
@@ -121,14 +122,13 @@ void print_text(const std::vector<PluginReport>& plugins, const std::string& wor
         const PluginReport& first = *reports.front();
         std::size_t elements = 0;
         for (const PluginReport* p : reports) elements += p->count;
-        fmt::print("plugin         {:{}}  {:10}  {} ({}){}{}\n", first.name, width, to_text(first.fate),
-                   place_of(first), where(first.where, world_file),
-                   elements > 1 ? fmt::format(" and {} more", elements - 1) : "",
-                   first.reason.empty() ? "" : ": " + first.reason);
+        say("plugin         {:{}}  {:10}  {} ({}){}{}\n", first.name, width, to_text(first.fate),
+            place_of(first), where(first.where, world_file),
+            elements > 1 ? fmt::format(" and {} more", elements - 1) : "",
+            first.reason.empty() ? "" : ": " + first.reason);
     }
     if (std::ranges::any_of(plugins, [](const PluginReport& p) { return p.fate == PluginFate::kNotRun; }))
-        fmt::print(
-            "    For plugins that do not run: docs/plugins.md lists those that do; a control program can "
+        say("    For plugins that do not run: docs/plugins.md lists those that do; a control program can "
             "do their work.\n");
 }
 
@@ -144,15 +144,14 @@ void print_text(const Diagnostics& diagnostics, bool all) {
     for (const Severity severity : {Severity::kError, Severity::kWarning, Severity::kNote}) {
         if (all) {
             for (const Diagnostic& d : diagnostics.items())
-                if (d.severity == severity) fmt::print("{}\n", to_text(d));
+                if (d.severity == severity) say("{}\n", to_text(d));
             continue;
         }
         for (const FindingGroup& group : group_findings(diagnostics, severity))
-            if (group.first->code != "plugin" || severity != Severity::kNote)
-                fmt::print("{}\n", to_text(group));
+            if (group.first->code != "plugin" || severity != Severity::kNote) say("{}\n", to_text(group));
     }
-    fmt::print("{}, {}, {}\n", counted(diagnostics, Severity::kError),
-               counted(diagnostics, Severity::kWarning), counted(diagnostics, Severity::kNote));
+    say("{}, {}, {}\n", counted(diagnostics, Severity::kError), counted(diagnostics, Severity::kWarning),
+        counted(diagnostics, Severity::kNote));
 }
 
 nlohmann::json to_json(const WorldCensus& census, const World& world) {
@@ -246,14 +245,13 @@ int check(const std::string& file, const CheckOptions& options, nlohmann::json& 
         reports.push_back(std::move(report));
     } else {
         if (world) print_text(*world, take_census(*world, model.get()));
-        if (options.names && runs) fmt::print("{}", to_text(list_names(*model)));
+        if (options.names && runs) say("{}", to_text(list_names(*model)));
         print_text(commands);
         if (world) print_text(plugins, world->file);
         print_text(diagnostics, options.all);
         if (diagnostics.has_errors())
-            fmt::print("{}\n",
-                       runs ? "`roboss run` leaves out the models with errors, or refuses with --strict"
-                            : "`roboss run` refuses this world");
+            say("{}\n", runs ? "`roboss run` leaves out the models with errors, or refuses with --strict"
+                             : "`roboss run` refuses this world");
     }
     return !world || diagnostics.has_errors() ? kBadInput : kSuccess;
 }
@@ -264,14 +262,13 @@ int check_all(const CheckOptions& options) {
     nlohmann::json reports = nlohmann::json::array();
     for (const std::string& world : options.worlds) {
         if (options.worlds.size() > 1 && !options.json)
-            fmt::print("{}== {}\n", world == options.worlds.front() ? "" : "\n", world);
+            say("{}== {}\n", world == options.worlds.front() ? "" : "\n", world);
         const Result<std::string> file = world_file(world);
         if (!file) return print(file.error()), kBadInput;
         worst = std::max(worst, check(file.value(), options, reports));
     }
     const nlohmann::json& printed = reports.size() == 1 ? reports.front() : reports;
-    if (options.json)
-        fmt::print("{}\n", printed.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
+    if (options.json) say("{}\n", printed.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
     return worst;
 }
 

@@ -24,8 +24,11 @@ const char* const kClientFooter =
     R"(PROGRAM is a shared library as for `roboss run --client`; the source is the same. It may attach to a run at any time.
 `roboss controller WORLD --await-client NAME` starts a run that waits for it.
 
-Exit codes: 0 the run has ended or the Client has left, 1 an option is wrong or no Controller was found, 3 the program
-threw an exception.)";
+Two Clients of a run cannot have the same name. One that has died is succeeded by the next of its name and times: that
+is asked again what it did not answer.
+
+Exit codes: 0 the run has ended or the Client has left, 1 an option is wrong, no Controller was found, or it refused the
+Client, 3 the program threw an exception, or the run has failed.)";
 
 struct ClientProcessOptions {
     MemberOptions member;
@@ -44,7 +47,7 @@ class ClientProcess {
         if (!member_.open()) return kBadInput;
         const Address self = member_.new_address(Role::kClient);
         const auto model = member_.fetch_model(self);
-        if (!model) return interrupted() ? kSuccess : kBadInput;
+        if (!model) return member_.exit_code();
         const std::string name =
             o_.name.empty() ? std::filesystem::path(o_.program).filename().string() : o_.name;
         if (Result<BusClientOptions> times = client_options(*program.value(), *model, name); !times)
@@ -57,7 +60,7 @@ class ClientProcess {
             member_.report("the world has changed; fetching it again");  // and start() is called again
             const Address again = member_.new_address(Role::kClient);
             const auto changed = member_.fetch_model(again);
-            if (!changed) return interrupted() ? kSuccess : kBadInput;
+            if (!changed) return member_.exit_code();
             host = std::make_unique<ProgramHost>(changed, again, name, host->take_program());
             see(*host);
         }
@@ -88,7 +91,8 @@ class ClientProcess {
             host.advance(member_.bus());
             for (const std::string& refusal : host.client().take_refusals()) member_.report(refusal);
             if (host.client().outdated()) return std::nullopt;
-            if (!member_.wait()) return kBadInput;
+            if (!host.client().refusal().empty()) return report_refusal(host.client().refusal());
+            if (host.client().over().empty() && !member_.wait()) break;
         }
         member_.bus().flush(500);
         if (!host.failure().empty()) {
@@ -96,8 +100,14 @@ class ClientProcess {
                 error_of_text("", host.failure(), "fix the control program", "client-failed"));
             return kRunFailed;
         }
-        if (!host.client().over().empty()) member_.report("the run is over: " + host.client().over());
-        return kSuccess;
+        if (!host.client().over().empty()) return member_.end({host.client().over(), host.client().failed()});
+        return member_.exit_code();
+    }
+
+    int report_refusal(const std::string& why) {
+        member_.report_error(
+            error_of_text("the run refuses this Client: ", why, "start it again", "refused"));
+        return kBadInput;
     }
 
     const ClientProcessOptions& o_;

@@ -19,6 +19,7 @@
 #include "app/cluster/remote_shell.h"
 #include "app/commands/control_command.h"
 #include "app/commands/exit_codes.h"
+#include "app/output/say.h"
 #include "app/processes/member.h"
 #include "app/run/run.h"
 #include "gateway/run_json.h"
@@ -99,7 +100,7 @@ Result<std::vector<Started>> read_notes(const ClusterFile& file) {
 
 void report(const std::map<std::string, std::string>& silent) {
     for (const auto& [host, why] : silent)
-        fmt::print(stderr, "roboss: host {} does not answer: {} [no-answer]\n", host, why);
+        say(stderr, "roboss: host {} does not answer: {} [no-answer]\n", host, why);
 }
 
 /// Whether processes started before still run, or may still run; it has been reported.
@@ -126,17 +127,16 @@ int up(const std::string& path, bool json) {
     const StartOutcome outcome = start_processes(file.value(), keys.value());
     if (json) {
         const Json told{{"simulation", file.value().simulation}, {"started", json_of(outcome.started)}};
-        fmt::print("{}\n", told.dump(2));
+        say("{}\n", told.dump(2));
     } else {
         for (const Started& s : outcome.started)
-            fmt::print("{:<24} on {:<16} process {}, log {}\n", s.name, s.host, s.pid, s.log);
+            say("{:<24} on {:<16} process {}, log {}\n", s.name, s.host, s.pid, s.log);
     }
     for (const Error& error : outcome.errors) print(error);
     bool good = outcome.errors.empty() && outcome.started.size() == file.value().processes.size();
     if (!good)
-        fmt::print(stderr,
-                   "roboss: not all processes have started; `roboss cluster down {}` ends the others\n",
-                   path);
+        say(stderr, "roboss: not all processes have started; `roboss cluster down {}` ends the others\n",
+            path);
     if (Result<> written = write_notes(file.value(), outcome.started); !written)
         print(written.error()), good = false;
     return good ? kSuccess : kRunFailed;
@@ -200,40 +200,38 @@ int down(const std::string& path, bool json) {
     report(ending.silent());
     std::vector<Started> rest = ending.left();
     for (const Started& s : rest)
-        fmt::print(stderr, "roboss: {} (process {} on {}) did not end\n", s.name, s.pid, s.host);
+        say(stderr, "roboss: {} (process {} on {}) did not end\n", s.name, s.pid, s.host);
     for (const Started& s : ending.unknown())
-        fmt::print(stderr, "roboss: {} (process {} on {}) may still run [may-run]\n", s.name, s.pid, s.host);
+        say(stderr, "roboss: {} (process {} on {}) may still run [may-run]\n", s.name, s.pid, s.host);
     rest.insert(rest.end(), ending.unknown().begin(), ending.unknown().end());
     const std::size_t ended = all.value().size() - rest.size();
-    if (json) fmt::print("{}\n", Json{{"ended", ended}, {"left", json_of(rest)}}.dump(2));
+    if (json) say("{}\n", Json{{"ended", ended}, {"left", json_of(rest)}}.dump(2));
     if (!rest.empty()) {
         if (Result<> written = write_notes(file.value(), rest); !written) print(written.error());
-        fmt::print(stderr,
-                   "roboss: {} processes have ended; run `roboss cluster down {}` again for the others\n",
-                   ended, path);
+        say(stderr, "roboss: {} processes have ended; run `roboss cluster down {}` again for the others\n",
+            ended, path);
         return kRunFailed;
     }
     std::filesystem::remove(notes_of(file.value()));
-    if (!json) fmt::print("all {} processes have ended\n", ended);
+    if (!json) say("all {} processes have ended\n", ended);
     return kSuccess;
 }
 
 void print_status(const Json& o) {
-    fmt::print("{} at {:.3f} s (tick {}), {}; {} robots in {} islands; windows of {} ticks\n",
-               o.value("world", "?"), o.value("time_s", 0.0), o.value("tick", 0),
-               o.value("paused", false) ? "paused" : "speed " + o.value("speed", "?"), o["robots"].size(),
-               o.value("islands", 0), o.value("window_ticks", 0));
-    fmt::print(
-        "{} windows, {} repeated; load balance {:.3f}; {} losses, {} recoveries, {} migrations, {} windows "
+    say("{} at {:.3f} s (tick {}), {}; {} robots in {} islands; windows of {} ticks\n", o.value("world", "?"),
+        o.value("time_s", 0.0), o.value("tick", 0),
+        o.value("paused", false) ? "paused" : "speed " + o.value("speed", "?"), o["robots"].size(),
+        o.value("islands", 0), o.value("window_ticks", 0));
+    say("{} windows, {} repeated; load balance {:.3f}; {} losses, {} recoveries, {} migrations, {} windows "
         "with work stealing\n",
         o.value("windows", 0), o.value("windows_repeated", 0), o.value("efficiency", 0.0),
         o.value("losses", 0), o.value("recoveries", 0), o.value("migrations", 0), o.value("cuts", 0));
-    fmt::print("{:>4}  {:<32} {:<8} {:>7} {:>7} {:>8} {:>6} {:>10}\n", "id", "host/pid", "state", "threads",
-               "robots", "islands", "load", "us/tick");
+    say("{:>4}  {:<32} {:<8} {:>7} {:>7} {:>8} {:>6} {:>10}\n", "id", "host/pid", "state", "threads",
+        "robots", "islands", "load", "us/tick");
     for (const Json& m : o["members"])
-        fmt::print("{:>4}  {:<32} {:<8} {:>7} {:>7} {:>8} {:>6.2f} {:>10.1f}\n", m.value("id", 0),
-                   m.value("name", ""), m.value("state", ""), m.value("threads", 0), m.value("robots", 0),
-                   m.value("islands", 0), m.value("load", 0.0), m.value("step_us", 0.0));
+        say("{:>4}  {:<32} {:<8} {:>7} {:>7} {:>8} {:>6.2f} {:>10.1f}\n", m.value("id", 0),
+            m.value("name", ""), m.value("state", ""), m.value("threads", 0), m.value("robots", 0),
+            m.value("islands", 0), m.value("load", 0.0), m.value("step_us", 0.0));
 }
 
 struct StatusOptions {
@@ -269,8 +267,8 @@ Result<Json> ask_processes(const ClusterFile& file) {
         processes.push_back({{"name", s.name}, {"host", s.host}, {"pid", s.pid}, {"log", s.log}});
         processes.back()["runs"] = runs ? Json(*runs) : Json();
         if (runs.value_or(true)) continue;
-        fmt::print(stderr, "roboss: {} (process {} on {}) has ended; its log: {} [process-ended]\n", s.name,
-                   s.pid, s.host, s.log);
+        say(stderr, "roboss: {} (process {} on {}) has ended; its log: {} [process-ended]\n", s.name, s.pid,
+            s.host, s.log);
         if (s.role != "controller") continue;
         const Result<std::string> log = run_on_host(file, s.host, "tail -n 5 " + quoted(s.log) + "\n");
         ended = Error{"the run has ended; the last lines of its log:\n" + (log ? log.value() : ""), "",
@@ -297,7 +295,7 @@ int status(const StatusOptions& o) {
     if (!run.is_object() || !run.contains("members") || !run.contains("robots"))
         return print(Error{"unexpected reply of the run: " + text.value(), ""}), kRunFailed;
     if (file) run["processes"] = processes;
-    if (o.json) return fmt::print("{}\n", run.dump(2)), kSuccess;
+    if (o.json) return say("{}\n", run.dump(2)), kSuccess;
     print_status(run);
     return kSuccess;
 }

@@ -18,6 +18,7 @@
 #include "app/commands/numbers.h"
 #include "app/local/control_socket.h"
 #include "app/local/run_list.h"
+#include "app/output/say.h"
 #include "app/processes/interrupt.h"
 #include "app/run/run.h"
 #include "client/control_text.h"
@@ -215,7 +216,7 @@ std::optional<ControlOutcome> reply_of_listed_run(const MemberOptions& options, 
         Result<ControlOutcome> reply = run ? ask_run(run.value().socket, action) : run.error();
         if (reply) return std::move(reply).value();
         if (reply.error().code != "no-run" || Clock::now() >= end || interrupted())
-            return fmt::print(stderr, "roboss control: {}\n", reply.error().text()), std::nullopt;
+            return say(stderr, "roboss control: {}\n", reply.error().text()), std::nullopt;
         std::this_thread::sleep_for(std::chrono::milliseconds(50));
     }
 }
@@ -257,11 +258,11 @@ std::string question_before(const ControlAction& action) {
 }
 
 bool confirmed(const std::string& question) {
-    fmt::print(stderr, "{} [y/N] ", question);
+    say(stderr, "{} [y/N] ", question);
     std::string reply;
     std::getline(std::cin, reply);
     if (reply == "y" || reply == "Y" || reply == "yes") return true;
-    fmt::print(stderr, "roboss control: nothing was done\n");
+    say(stderr, "roboss control: nothing was done\n");
     return false;
 }
 
@@ -334,11 +335,11 @@ int ask_controller(const MemberOptions& options, const std::vector<std::string>&
     }
     if (!outcome) return interrupted() ? kInterrupted : kBadInput;
     const auto* refused = std::get_if<ControlRefused>(&*outcome);
-    if (refused != nullptr) fmt::print(stderr, "roboss control: {}\n", refused->error().text());
+    if (refused != nullptr) say(stderr, "roboss control: {}\n", refused->error().text());
     if (ask.json)
-        fmt::print("{}\n", outcome_json(*outcome));
+        say("{}\n", outcome_json(*outcome));
     else if (refused == nullptr)
-        fmt::print("{}\n", text_of(*outcome));
+        say("{}\n", text_of(*outcome));
     return refused != nullptr ? kRunFailed : kSuccess;
 }
 

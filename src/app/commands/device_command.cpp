@@ -13,6 +13,7 @@
 #include "app/commands/exit_codes.h"
 #include "app/commands/numbers.h"
 #include "app/output/output_file.h"
+#include "app/output/say.h"
 #include "app/processes/crash_report.h"
 #include "app/processes/interrupt.h"
 #include "app/processes/member.h"
@@ -120,7 +121,7 @@ class DeviceProcess {
         std::optional<World> world = load_world(o_.world, {{}, {}, false}, diagnostics);
         if (world && !diagnostics.refuses()) model_ = compile(*world, {}, diagnostics);
         for (const Diagnostic& d : diagnostics.items())
-            if (d.severity != Severity::kNote) fmt::print(stderr, "{}\n", to_text(d));
+            if (d.severity != Severity::kNote) say(stderr, "{}\n", to_text(d));
         return model_ && !diagnostics.refuses();
     }
 
@@ -202,10 +203,12 @@ class DeviceProcess {
     void move_twin() {
         twin_->advance(member_.bus());
         for (const std::string& refusal : member_client_->take_refusals()) member_.report(refusal);
-        const bool over = !member_client_->over().empty() || member_client_->outdated();
+        const BusClient& client = *member_client_;
+        const bool over = !client.over().empty() || client.outdated() || !client.refusal().empty();
         if (over && !std::exchange(run_ended_, true)) {
-            member_.report(member_client_->outdated() ? "the world of the run has changed: start again"
-                                                      : "the run is over: " + member_client_->over());
+            member_.report(client.outdated()          ? "the world of the run has changed: start again"
+                           : client.refusal().empty() ? "the run is over: " + client.over()
+                                                      : "the run refuses the twin: " + client.refusal());
             run_->stop();
         }
         member_.bus().wait(1);

@@ -9,6 +9,7 @@
 
 #include "app/commands/exit_codes.h"
 #include "app/commands/numbers.h"
+#include "app/output/say.h"
 #include "app/run/journal_location.h"
 #include "app/run/run.h"
 #include "core/hash.h"
@@ -52,26 +53,25 @@ Result<Named> open(const std::string& text) {
 
 void print_orders(const char* what, const std::vector<std::string>& orders) {
     constexpr std::size_t kShown = 3;
-    for (std::size_t i = 0; i < std::min(kShown, orders.size()); ++i) fmt::print("{}  {}\n", what, orders[i]);
-    if (orders.size() > kShown) fmt::print("{}  and {} more\n", what, orders.size() - kShown);
+    for (std::size_t i = 0; i < std::min(kShown, orders.size()); ++i) say("{}  {}\n", what, orders[i]);
+    if (orders.size() > kShown) say("{}  and {} more\n", what, orders.size() - kShown);
 }
 
 void print_text(const Comparison& c, double dt_s) {
-    if (c.model_a != c.model_b)
-        fmt::print("the Models differ: {} and {}\n", to_hex(c.model_a), to_hex(c.model_b));
+    if (c.model_a != c.model_b) say("the Models differ: {} and {}\n", to_hex(c.model_a), to_hex(c.model_b));
     const std::string span =
         fmt::format("from {:.6f} s to {:.6f} s (ticks {} to {})", static_cast<double>(c.from) * dt_s,
                     static_cast<double>(c.until) * dt_s, c.from, c.until);
-    if (!c.divergence) return fmt::print("equal {}\n", span);
+    if (!c.divergence) return say("equal {}\n", span);
     const Divergence& d = *c.divergence;
-    fmt::print("different; compared {}\n", span);
-    fmt::print("first at          tick {} ({:.6f} s), {} robots\n", d.tick, d.time_s, d.robots);
+    say("different; compared {}\n", span);
+    say("first at          tick {} ({:.6f} s), {} robots\n", d.tick, d.time_s, d.robots);
     if (!d.robot.empty())
-        fmt::print("robot             {}\nfield             {}\n  a               {}\n  b               {}\n",
-                   d.robot, d.field.field, d.field.a, d.field.b);
+        say("robot             {}\nfield             {}\n  a               {}\n  b               {}\n",
+            d.robot, d.field.field, d.field.a, d.field.b);
     print_orders("only in a", d.orders_a_only);
     print_orders("only in b", d.orders_b_only);
-    if (!d.remark.empty()) fmt::print("remark            {}\n", d.remark);
+    if (!d.remark.empty()) say("remark            {}\n", d.remark);
 }
 
 Json to_json(const Comparison& c) {
@@ -104,12 +104,12 @@ int diff(const DiffOptions& o) {
     for (const auto& [name, run] : {std::pair(o.a, &a.value()), std::pair(o.b, &b.value())})
         if (const std::string text = ways(run->journal.lineage(run->branch), model.value()->dt_s);
             !text.empty())
-            fmt::print(stderr, "roboss: {} {} [branches]\n", name, text);
+            say(stderr, "roboss: {} {} [branches]\n", name, text);
     const Result<Comparison> compared = compare(a.value().journal, a.value().branch, b.value().journal,
                                                 b.value().branch, {static_cast<unsigned>(o.threads), 0});
     if (!compared) return print(compared.error()), kBadInput;
     if (o.json)
-        fmt::print("{}\n", to_json(compared.value()).dump(2, ' ', false, Json::error_handler_t::replace));
+        say("{}\n", to_json(compared.value()).dump(2, ' ', false, Json::error_handler_t::replace));
     else
         print_text(compared.value(), model.value()->dt_s);
     return compared.value().divergence ? kRunFailed : kSuccess;

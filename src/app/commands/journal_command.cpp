@@ -13,6 +13,7 @@
 
 #include "app/commands/exit_codes.h"
 #include "app/commands/numbers.h"
+#include "app/output/say.h"
 #include "app/processes/interrupt.h"
 #include "app/run/journal_location.h"
 #include "app/run/run.h"
@@ -43,7 +44,7 @@ struct JournalOptions {
 };
 
 void print_json(const Json& o) {
-    fmt::print("{}\n", o.dump(2, ' ', false, Json::error_handler_t::replace));
+    say("{}\n", o.dump(2, ' ', false, Json::error_handler_t::replace));
 }
 
 /// Opens the journal that the options name; nullopt if it cannot be opened (it has been reported).
@@ -83,8 +84,7 @@ Json to_json(const Branch& b, double dt_s) {
 void print_tree(const Journal& journal, BranchId parent, int depth, double dt) {
     for (const Branch& b : journal.branches()) {
         if ((journal.find(b.parent) != nullptr ? b.parent : 0) != parent) continue;
-        fmt::print(
-            "{:{}}branch {}  {:.3f} s to {:.3f} s  {} checkpoints, {} orders, {:.1f} MB  ({}, hash {} at "
+        say("{:{}}branch {}  {:.3f} s to {:.3f} s  {} checkpoints, {} orders, {:.1f} MB  ({}, hash {} at "
             "tick {})\n",
             "", 2 * depth, b.id, static_cast<double>(b.first) * dt, static_cast<double>(b.end) * dt,
             b.checkpoints, b.orders, 1e-6 * static_cast<double>(b.bytes), b.reason, to_hex(b.hash),
@@ -106,8 +106,8 @@ Json bookmarks_json(const Journal& journal, double dt_s) {
 
 void print_bookmarks(const Journal& journal, double dt_s) {
     for (const Bookmark& mark : journal.bookmarks())
-        fmt::print("bookmark {}  {:.3f} s of branch {}  {}\n", mark.id, static_cast<double>(mark.tick) * dt_s,
-                   mark.branch, mark.name);
+        say("bookmark {}  {:.3f} s of branch {}  {}\n", mark.id, static_cast<double>(mark.tick) * dt_s,
+            mark.branch, mark.name);
 }
 
 int info(const JournalOptions& o) {
@@ -141,11 +141,11 @@ int info(const JournalOptions& o) {
         return kSuccess;
     }
     const Branch& youngest = journal.branches().back();
-    fmt::print("journal           {}, written by RoBOSS {}\n", journal.path(), journal.version());
-    fmt::print("world             {}, model hash {}\n", youngest.world_file, to_hex(youngest.model_hash));
-    fmt::print("robots            {}, step {:g} ms, seed {}\n", robots, dt_s * 1e3, youngest.seed);
-    fmt::print("size              {:.1f} MB, {:.2f} MB per recorded minute\n",
-               1e-6 * static_cast<double>(bytes), mb_per_min);
+    say("journal           {}, written by RoBOSS {}\n", journal.path(), journal.version());
+    say("world             {}, model hash {}\n", youngest.world_file, to_hex(youngest.model_hash));
+    say("robots            {}, step {:g} ms, seed {}\n", robots, dt_s * 1e3, youngest.seed);
+    say("size              {:.1f} MB, {:.2f} MB per recorded minute\n", 1e-6 * static_cast<double>(bytes),
+        mb_per_min);
     print_tree(journal, 0, 0, dt_s);
     print_bookmarks(journal, dt_s);
     return kSuccess;
@@ -174,15 +174,14 @@ class VerifyProgress {
         const auto now = std::chrono::steady_clock::now();
         if (now - shown_ < (terminal_ ? std::chrono::milliseconds(500) : std::chrono::seconds(10))) return;
         shown_ = now;
-        fmt::print(stderr, "{}verified {} of {} ticks ({:.0f} %){}", terminal_ ? "\r" : "roboss: ", done,
-                   all_, 100.0 * static_cast<double>(done) / static_cast<double>(all_),
-                   terminal_ ? "  " : "\n");
+        say(stderr, "{}verified {} of {} ticks ({:.0f} %){}", terminal_ ? "\r" : "roboss: ", done, all_,
+            100.0 * static_cast<double>(done) / static_cast<double>(all_), terminal_ ? "  " : "\n");
         std::fflush(stderr);
         open_ = terminal_;
     }
     /// Before other text.
     void clear() {
-        if (std::exchange(open_, false)) fmt::print(stderr, "\n");
+        if (std::exchange(open_, false)) say(stderr, "\n");
     }
 
   private:
@@ -212,7 +211,7 @@ int verify(const JournalOptions& o) {
         done_before += s.until - s.from;
         stretches.push_back(to_json(s));
         progress.clear();
-        if (!o.json) fmt::print("{}", line_of(s));
+        if (!o.json) say("{}", line_of(s));
     };
     const auto watch = [&](const Stretch& s, Tick now) {
         progress.show(done_before + now - s.from);
@@ -226,12 +225,12 @@ int verify(const JournalOptions& o) {
     if (o.json)
         print_json(
             {{"file", journal.path()}, {"good", bad == 0}, {"different", bad}, {"stretches", stretches}});
-    if (!o.json) fmt::print("{} stretches replayed, {} different\n", stretches.size(), bad);
+    if (!o.json) say("{} stretches replayed, {} different\n", stretches.size(), bad);
     return bad == 0 ? kSuccess : kRunFailed;
 }
 
 void print_line(const Json& o) {
-    fmt::print("{}\n", o.dump(-1, ' ', false, Json::error_handler_t::replace));
+    say("{}\n", o.dump(-1, ' ', false, Json::error_handler_t::replace));
 }
 
 /// The log that a branch of a lineage has from a tick on, as JSON lines, in the order of time. Orders that
@@ -261,7 +260,7 @@ int export_part(const Journal& journal, const Lineage& lineage, const Lineage::P
     for (const LoggedOrder& o : log.value().orders) {
         if (o.order.apply_at >= until) continue;
         if (Result<> good = check_order(model, o.order); !good) return print(good.error()), kBadInput;
-        fmt::print("{}\n", order_line(o.order, model));
+        say("{}\n", order_line(o.order, model));
     }
     return kSuccess;
 }
@@ -273,7 +272,7 @@ int export_log(const JournalOptions& o) {
     if (!time) return print(time.error()), kBadInput;
     const Lineage& lineage = time.value().lineage;
     if (const std::string text = ways(lineage, time.value().model->dt_s); !text.empty())
-        fmt::print(stderr, "roboss: the export {} [branches]\n", text);
+        say(stderr, "roboss: the export {} [branches]\n", text);
     const bool all = !opened->location.time_s.has_value();
     for (const Lineage::Part& part : lineage.parts()) {
         if (!all && part.until <= time.value().tick && lineage.after(part) != nullptr) continue;

@@ -8,6 +8,7 @@
 
 #include "app/commands/exit_codes.h"
 #include "app/commands/numbers.h"
+#include "app/output/say.h"
 #include "app/run/run.h"
 #include "net/key_ring.h"
 
@@ -49,7 +50,7 @@ int add(const KeysOptions& o) {
     Result<KeyRing> ring = KeyRing::open(o.folder);
     if (!ring) return fail(ring.error());
     if (Result<> added = ring.value().add(o.name, seat.value(), o.days); !added) return fail(added.error());
-    fmt::print("{}/{}: the key of a {}, for its --keys\n", o.folder, o.name, o.role);
+    say("{}/{}: the key of a {}, for its --keys\n", o.folder, o.name, o.role);
     return kSuccess;
 }
 
@@ -73,12 +74,12 @@ int list(const KeysOptions& o) {
                            {"role", seat_name(holder.seat)},
                            {"expires", holder.expires},
                            {"serial", holder.serial}});
-        fmt::print("{}\n", all.dump(2));
+        say("{}\n", all.dump(2));
         return kSuccess;
     }
-    fmt::print("{:24}  {:10}  {}\n", "NAME", "ROLE", "EXPIRES");
+    say("{:24}  {:10}  {}\n", "NAME", "ROLE", "EXPIRES");
     for (const Holder& holder : holders.value())
-        fmt::print("{:24}  {:10}  {}\n", holder.name, seat_name(holder.seat), holder.expires);
+        say("{:24}  {:10}  {}\n", holder.name, seat_name(holder.seat), holder.expires);
     return kSuccess;
 }
 
@@ -86,8 +87,7 @@ int revoke(const KeysOptions& o) {
     Result<KeyRing> ring = ring_of(o);
     if (!ring) return fail(ring.error());
     if (Result<> revoked = ring.value().revoke(o.name); !revoked) return fail(revoked.error());
-    fmt::print(
-        "the key of {} is revoked; Controllers with their keys elsewhere need the new file `revoked`\n",
+    say("the key of {} is revoked; Controllers with their keys elsewhere need the new file `revoked`\n",
         o.name);
     return kSuccess;
 }

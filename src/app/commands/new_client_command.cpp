@@ -12,6 +12,7 @@
 #include <string>
 
 #include "app/commands/exit_codes.h"
+#include "app/output/say.h"
 #include "app/run/run.h"
 #include "app/templates.h"
 
@@ -100,17 +101,15 @@ Result<> write_project(const NewClientOptions& o) {
         nlohmann::ordered_json written{{"folder", folder.string()},
                                        {"files", nlohmann::ordered_json::array()}};
         for (const auto& [name, text] : files) written["files"].push_back(name);
-        fmt::print("{}\n", written.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
+        say("{}\n", written.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
         return Ok{};
     }
-    fmt::print(
-        "{}\n\nNext:\n  cd {}\n  cmake -B build -DCMAKE_PREFIX_PATH={} && cmake --build build\n"
+    say("{}\n\nNext:\n  cd {}\n  cmake -B build -DCMAKE_PREFIX_PATH={} && cmake --build build\n"
         "  roboss run world.sdf --client build/{}.so\n",
         "wrote " + folder.string() + ": a control program, a robot and a world", folder.string(), prefix(),
         o.name);
     if (prefix() == kUnknownPrefix)
-        fmt::print(
-            "PREFIX is the folder in which RoBOSS is installed: cmake --install BUILD --prefix PREFIX\n");
+        say("PREFIX is the folder in which RoBOSS is installed: cmake --install BUILD --prefix PREFIX\n");
     return Ok{};
 }
 

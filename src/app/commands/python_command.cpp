@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "app/commands/exit_codes.h"
+#include "app/output/say.h"
 #include "core/result.h"
 
 namespace roboss {
@@ -40,7 +41,7 @@ int become_python(const std::string& name, const std::vector<std::string>& argum
                                   std::strerror(errno)),
                       "install Python 3.11 or newer with the package 'roboss', and set ROBOSS_PYTHON to it",
                       "no-python"};
-    fmt::print(stderr, "roboss: {}\n", error.text());
+    say(stderr, "roboss: {}\n", error.text());
     return kBadInput;
 }
 

@@ -9,6 +9,7 @@
 
 #include "app/commands/exit_codes.h"
 #include "app/local/run_list.h"
+#include "app/output/say.h"
 #include "app/run/run.h"
 
 namespace roboss {
@@ -20,15 +21,13 @@ const char* const kRunsFooter =
 Exit codes: 0 done (also if there is none), 1 the list cannot be read.)";
 
 void print_table(const std::vector<ListedRun>& runs) {
-    if (runs.empty())
-        return fmt::print(stderr, "no runs on this computer; start one with `roboss run WORLD`\n");
+    if (runs.empty()) return say(stderr, "no runs on this computer; start one with `roboss run WORLD`\n");
     std::size_t width = 4;
     for (const ListedRun& run : runs) width = std::max(width, run.name.size());
-    fmt::print("{:{}}  {:10}  {:>7}  {:20}  {}\n", "NAME", width, "COMMAND", "PROCESS", "STARTED",
-               "WORLD, VIEWER");
+    say("{:{}}  {:10}  {:>7}  {:20}  {}\n", "NAME", width, "COMMAND", "PROCESS", "STARTED", "WORLD, VIEWER");
     for (const ListedRun& run : runs)
-        fmt::print("{:{}}  {:10}  {:>7}  {:20}  {}{}{}\n", run.name, width, run.command, run.pid, run.started,
-                   run.world, run.viewer.empty() ? "" : "  ", run.viewer);
+        say("{:{}}  {:10}  {:>7}  {:20}  {}{}{}\n", run.name, width, run.command, run.pid, run.started,
+            run.world, run.viewer.empty() ? "" : "  ", run.viewer);
 }
 
 int list(bool json) {
@@ -43,7 +42,7 @@ int list(bool json) {
                        {"world", run.world},
                        {"viewer", run.viewer},
                        {"started", run.started}});
-    fmt::print("{}\n", all.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
+    say("{}\n", all.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
     return kSuccess;
 }
 

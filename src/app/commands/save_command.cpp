@@ -7,6 +7,7 @@
 
 #include "app/commands/control_command.h"
 #include "app/commands/exit_codes.h"
+#include "app/output/say.h"
 #include "app/run/journal_location.h"
 #include "app/run/run.h"
 #include "core/output_check.h"
@@ -48,7 +49,7 @@ int save_from_journal(const SaveOptions& o) {
         return print(saved.error()), kRunFailed;
     const std::string text = fmt::format("saved {:.6f} s (tick {}) in {}",
                                          static_cast<double>(time.tick) * model.dt_s, time.tick, o.file);
-    fmt::print("{}\n", o.json ? done_json(time.tick, text) : text);
+    say("{}\n", o.json ? done_json(time.tick, text) : text);
     return kSuccess;
 }
 

@@ -9,6 +9,7 @@
 #include "app/processes/interrupt.h"
 #include "app/processes/local_process.h"
 #include "app/processes/member.h"
+#include "app/processes/memory_guard.h"
 #include "app/processes/threads.h"
 #include "core/hash.h"
 #include "roles/simulator/simulator.h"
@@ -24,13 +25,12 @@ leave: its robots move to other Simulators first. A second Ctrl-C ends it immedi
 results do not change.
 
 Exit codes: 0 the run has ended or the Simulator has left, 1 an option is wrong, no Controller was found, or the
-Controller refused it.)";
+Controller refused it, 3 the run has failed, or the memory was not enough.)";
 
 struct SimulatorProcessOptions {
     MemberOptions member;
     int threads = 0;  // 0: the cores of this computer
     std::size_t lanes = kMostLanes;
-    bool stay = false;
 };
 
 class SimulatorProcess {
@@ -41,18 +41,18 @@ class SimulatorProcess {
           pool_(static_cast<unsigned>(threads_of_each(options.threads, 1))) {}
 
     int go() {
-        if (!member_.open()) return kBadInput;
+        if (!member_.open()) return member_.exit_code();
         for (;;) {
             const Address self = member_.new_address(Role::kSimulator);
             const auto model = member_.fetch_model(self);
-            if (!model) return interrupted() ? kSuccess : kBadInput;
+            if (!model) return member_.exit_code();
             member_.report(
                 fmt::format("received world '{}' (model hash {})", model->name, to_hex(model->hash)));
             SimulatorOptions role;
             role.lanes = o_.lanes;
             role.name = process_name(getpid());
             Simulator simulator(model, self, role, pool_);
-            if (!serve(simulator)) return kBadInput;
+            if (!serve(simulator)) return member_.exit_code();
             if (interrupted()) return kSuccess;
             if (simulator.outdated()) {
                 member_.report("the world has changed; fetching it again");
@@ -60,9 +60,9 @@ class SimulatorProcess {
                 member_.report("dismissed by the Controller");
                 return kSuccess;
             } else if (!simulator.over().empty()) {
-                member_.report("the run is over: " + simulator.over());
-                if (!o_.stay) return kSuccess;
-            } else if (!o_.stay && !simulator.refusal().empty()) {
+                const int code = member_.end({simulator.over(), simulator.failed()});
+                if (!o_.member.stay) return code;
+            } else if (!o_.member.stay && !simulator.refusal().empty()) {
                 return member_.report_error({"refused by the Controller: " + simulator.refusal(),
                                              "start it again", "refused"}),
                        kBadInput;
@@ -71,7 +71,7 @@ class SimulatorProcess {
     }
 
   private:
-    /// Until the role is done. False: no Controller for too long.
+    /// Until the role is done. False: the Member has ended.
     bool serve(Simulator& simulator) {
         std::int64_t asked_ms = 0;
         while (!simulator.gone()) {
@@ -81,6 +81,7 @@ class SimulatorProcess {
                 simulator.leave();
                 if (!member_.bus().present(kControllerAddress) || now - asked_ms > kGoodbye_ms) return true;
             }
+            if (const std::optional<std::string> why = guard_.exceeded()) return leave_at_once(*why);
             simulator.advance(member_.bus());
             for (const std::string& line : simulator.take_notices()) member_.report(line);
             if (!member_.wait()) return false;
@@ -88,6 +89,15 @@ class SimulatorProcess {
         return true;
     }
 
+    /// Others bring back its robots from a checkpoint: handing them over would take memory.
+    bool leave_at_once(const std::string& why) {
+        member_.leave_at_once({"this Simulator leaves: " + why,
+                               "give it more memory, or let more Simulators share the robots",
+                               "out-of-memory"});
+        return false;
+    }
+
+    MemoryGuard guard_;
     const SimulatorProcessOptions& o_;
     Member member_;
     ThreadPool pool_;
@@ -112,7 +122,7 @@ void add_simulator_command(CLI::App& app, int& exit_code) {
                      "floats 1, 8 or 16; the result is the same")
         ->check(whole_number(1, kMostLanes))
         ->capture_default_str();
-    command->add_flag("--stay", options->stay, "wait for the next run when one ends");
+    command->add_flag("--stay", options->member.stay, "wait for the next run when one ends");
     add_member_options(*command, options->member);
     command->callback([options, &exit_code] { exit_code = SimulatorProcess(*options).go(); });
 }

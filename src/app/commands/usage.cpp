@@ -9,6 +9,7 @@
 
 #include "app/commands/exit_codes.h"
 #include "app/commands/help_text.h"
+#include "app/output/say.h"
 #include "core/result.h"
 #include "core/similar.h"
 
@@ -63,7 +64,7 @@ Error usage_error(const CLI::App& app, const CLI::ParseError& error) {
 std::optional<int> read_command_line(CLI::App& app, int argc, const char* const* argv) {
     std::vector<const char*> words(argv, argv + argc);
     if (words.size() == 1) {  // what one types to see what there is
-        fmt::print(stderr, "{}", app.help());
+        say(stderr, "{}", app.help());
         return kWrongUsage;
     }
     if (words[1] == std::string_view("help")) {  // `roboss help run` is `roboss run --help`
@@ -75,7 +76,7 @@ std::optional<int> read_command_line(CLI::App& app, int argc, const char* const*
     } catch (const CLI::Success& request) {  // --help, --version
         return app.exit(request);
     } catch (const CLI::ParseError& error) {
-        fmt::print(stderr, "roboss: {}\n", usage_error(app, error).text());
+        say(stderr, "roboss: {}\n", usage_error(app, error).text());
         return kWrongUsage;
     }
     return std::nullopt;

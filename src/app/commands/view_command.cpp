@@ -34,7 +34,7 @@ int view(const ViewCommandOptions& o) {
     while (!interrupted()) {
         gateway.value()->advance(member.bus());
         for (const std::string& line : gateway.value()->take_notices()) member.report(line);
-        if (!member.wait()) return kBadInput;
+        if (!member.wait()) return member.exit_code();
     }
     gateway.value()->say_farewell({"'roboss view' was stopped; the run itself may continue"});
     member.bus().flush(500);

@@ -2,12 +2,17 @@
 #include "app/output/contacts_file.h"
 
 #include "app/output/cannot_write.h"
+#include "core/printable.h"
 
 namespace roboss {
 namespace {
 
-const char* link_name(const Model& model, RobotId robot, LinkId link) {
-    return model.type_of(robot).links[link.index()].name.c_str();
+std::string robot_name(const Model& model, RobotId robot) {
+    return printable_line(model.robots[robot.index()].name);
+}
+
+std::string link_name(const Model& model, RobotId robot, LinkId link) {
+    return printable_line(model.type_of(robot).links[link.index()].name);
 }
 
 }  // namespace
@@ -26,10 +31,11 @@ Result<> ContactsFile::write(const Model& model, Tick tick, std::span<const Cont
     const double time_s = static_cast<double>(tick) * model.dt_s;
     for (const ContactReport& c : contacts) {
         const bool robot = c.robot_b.valid();
-        std::fprintf(file_.get(), "%.17g,%s,%s,%s,%s", time_s, model.robots[c.robot_a.index()].name.c_str(),
-                     link_name(model, c.robot_a, c.link_a),
-                     robot ? model.robots[c.robot_b.index()].name.c_str() : "",
-                     robot ? link_name(model, c.robot_b, c.link_b) : model.statics[c.scenery].name.c_str());
+        const std::string other = robot ? robot_name(model, c.robot_b) : "",
+                          part = robot ? link_name(model, c.robot_b, c.link_b)
+                                       : printable_line(model.statics[c.scenery].name);
+        std::fprintf(file_.get(), "%.17g,%s,%s,%s,%s", time_s, robot_name(model, c.robot_a).c_str(),
+                     link_name(model, c.robot_a, c.link_a).c_str(), other.c_str(), part.c_str());
         for (const double x : {c.p_W.x, c.p_W.y, c.p_W.z, c.normal.x, c.normal.y, c.normal.z, c.gap,
                                c.impulse, c.friction.x, c.friction.y, c.friction.z})
             std::fprintf(file_.get(), ",%.17g", x);

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "app/output/cannot_write.h"
+#include "core/printable.h"
 
 namespace roboss {
 namespace {
@@ -18,9 +19,9 @@ constexpr std::size_t kRangesMax = 24;  // of ids in a line; `roboss control gro
 /// Quoted, without line breaks.
 std::string quoted(const std::string& text) {
     std::string word = "\"";
-    for (const char c : text) {
+    for (const char c : printable_line(text)) {
         if (c == '"' || c == '\\') word += '\\';
-        word += c == '\n' || c == '\r' ? ' ' : c;
+        word += c;
     }
     return word + '"';
 }

@@ -2,6 +2,7 @@
 #include "app/output/trace_file.h"
 
 #include "app/output/cannot_write.h"
+#include "core/printable.h"
 #include "physics/dynamics/kinematics.h"
 
 namespace roboss {
@@ -19,13 +20,14 @@ Result<> TraceFile::write(const Model& model, Tick tick, std::span<const RobotSt
     const double time_s = static_cast<double>(tick) * model.dt_s;
     for (std::size_t r = 0; r < states.size(); ++r) {
         const RobotType& type = model.type_of(RobotId(r));
+        const std::string robot = printable_line(model.robots[r].name);
         for (std::size_t l = 0; l < type.links.size(); ++l) {
             const Pose X = to_pose(link_pose(type, states[r], LinkId(l)));
             const Twist v = link_twist(type, states[r], LinkId(l));
             std::fprintf(
                 file_.get(),
                 "%.17g,%s,%s,%.17g,%.17g,%.17g,%.17g,%.17g,%.17g,%.17g,%.17g,%.17g,%.17g,%.17g,%.17g,%.17g\n",
-                time_s, model.robots[r].name.c_str(), type.links[l].name.c_str(), X.p.x, X.p.y, X.p.z, X.q.w,
+                time_s, robot.c_str(), printable_line(type.links[l].name).c_str(), X.p.x, X.p.y, X.p.z, X.q.w,
                 X.q.x, X.q.y, X.q.z, v.linear.x, v.linear.y, v.linear.z, v.angular.x, v.angular.y,
                 v.angular.z);
         }

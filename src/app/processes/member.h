@@ -13,7 +13,8 @@ namespace roboss {
 
 struct MemberOptions {
     NetOptions network;
-    double patience_s = 0;  // without a Controller; 0: any time
+    double patience_s = 0;  // without a Controller; 0: any time until there was one, then a minute
+    bool stay = false;      // until the next run when one ends
     bool quiet = false;
     bool named = false;      // --simulation was given
     bool networked = false;  // a network option that leads to another computer was given
@@ -34,18 +35,26 @@ class Member {
     Address new_address(Role role) const;
     /// Waits for the Model; null if it cannot be fetched (it has been reported) or on Ctrl-C.
     std::shared_ptr<const Model> fetch_model(const Address& self);
-    /// Waits for messages between two turns of the role. False: no Controller for too long, or it refuses
-    /// this process; it has been reported.
+    /// Waits for messages between two turns of the role. False: the run is over, there is no Controller for
+    /// too long, or it refuses this process; it has been reported.
     bool wait();
+    /// Once wait() or fetch_model() has failed: 0 if that is since the run is over, or by Ctrl-C.
+    int exit_code() const { return exit_code_; }
+    /// Reports that the run is over. The answer is the exit code.
+    int end(const RunEnd& end);
+    /// Says to the Controller, and here, why this process cannot go on.
+    void leave_at_once(const Error& why);
     void report(const std::string& line) const;
     void report_error(const Error& error) const;
 
   private:
+    void report_absence(double patience_s);
     const char* what_;
     const MemberOptions& o_;
     std::unique_ptr<StreamBus> bus_;
     std::int64_t seen_ms_ = 0;  // when a Controller was there last
-    bool waiting_reported_ = false;
+    bool was_there_ = false, waiting_reported_ = false, end_seen_ = false;
+    int exit_code_ = 0;
 };
 
 }  // namespace roboss

@@ -11,6 +11,7 @@
 
 #include "app/commands/exit_codes.h"
 #include "app/output/findings.h"
+#include "app/output/say.h"
 #include "app/processes/crash_report.h"
 #include "app/processes/interrupt.h"
 #include "app/processes/threads.h"
@@ -37,7 +38,7 @@ std::size_t print_groups(const Diagnostics& findings) {
     std::size_t unprinted = findings.count(Severity::kNote);
     for (const Severity severity : {Severity::kError, Severity::kWarning})
         for (const FindingGroup& group : group_findings(findings, severity)) {
-            fmt::print(stderr, "{}\n", to_text(group));
+            say(stderr, "{}\n", to_text(group));
             unprinted += group.more;
         }
     return unprinted;
@@ -48,20 +49,19 @@ void print(const Diagnostics& diagnostics, const std::string& world) {
     std::size_t unprinted = print_groups(diagnostics);
     for (const FindingGroup& group : group_findings(diagnostics, Severity::kNote))
         if (is_told_by_run(*group.first)) {
-            fmt::print(stderr, "{}\n", to_text(group));
+            say(stderr, "{}\n", to_text(group));
             --unprinted;
         }
     if (unprinted > 0)
-        fmt::print(stderr, "{} more {} about this world; `roboss check {} --all` prints {}\n", unprinted,
-                   unprinted == 1 ? "finding" : "findings", world, unprinted == 1 ? "it" : "them");
+        say(stderr, "{} more {} about this world; `roboss check {} --all` prints {}\n", unprinted,
+            unprinted == 1 ? "finding" : "findings", world, unprinted == 1 ? "it" : "them");
 }
 
 /// Prints what is wrong with the orders of a file. Returns false if anything is.
 bool are_orders_right(const Diagnostics& findings, const std::string& file) {
     print_groups(findings);
     if (findings.has_errors())
-        fmt::print(stderr, "roboss: the orders file {} is refused for the errors above; nothing was run\n",
-                   file);
+        say(stderr, "roboss: the orders file {} is refused for the errors above; nothing was run\n", file);
     return !findings.has_errors();
 }
 
@@ -115,7 +115,7 @@ bool is_told_by_run(const Diagnostic& d) {
 }
 
 void print(const Error& error) {
-    fmt::print(stderr, "roboss: {}\n", error.text());
+    say(stderr, "roboss: {}\n", error.text());
 }
 
 int Run::go() {
@@ -163,8 +163,8 @@ bool Run::prepare() {
     if (model_ && !o_.orders.empty()) orders_ = load_orders(o_.orders, *model_, order_findings);
     print(diagnostics, o_.world);
     if (!model_ || refused()) {
-        fmt::print(stderr, "roboss: {} is refused for the errors above{}\n", o_.world,
-                   o_.strict ? ", as --strict asks" : "; they concern the whole world or all its models");
+        say(stderr, "roboss: {} is refused for the errors above{}\n", o_.world,
+            o_.strict ? ", as --strict asks" : "; they concern the whole world or all its models");
         return false;
     }
     if (!are_orders_right(order_findings, o_.orders)) return false;
@@ -488,7 +488,7 @@ int Run::finish(bool fine, double wall_s) {
     if (contacts_) check(contacts_->close());
     if (dataset_) {
         check(dataset_->close());
-        fmt::print(stderr, "wrote {}\n", dataset_->summary());
+        say(stderr, "wrote {}\n", dataset_->summary());
     }
     if (!o_.save.empty() && !abandoned_) check(save_run(o_.save, *model_, saved_run()));
     check(journal_->close());
@@ -505,8 +505,8 @@ int Run::finish(bool fine, double wall_s) {
         log_->end(simulation_->tick(), fine ? "done" : "failed");
     }
     simulation_->dismiss(over(fine));
-    members_->await_exit(abandoned_);
-    fmt::print(writes_to_standard_output() ? stderr : stdout, "{}", to_text(s));
+    members_->end(over(fine), abandoned_);
+    say(writes_to_standard_output() ? stderr : stdout, "{}", to_text(s));
     if (abandoned_) return kProcessesFailed;
     if (!fine || !written) return kRunFailed;
     return interrupted() ? kInterrupted : kSuccess;

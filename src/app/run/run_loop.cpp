@@ -4,9 +4,11 @@
 #include <limits>
 #include <thread>
 
+#include "app/output/say.h"
 #include "app/processes/interrupt.h"
 #include "app/processes/threads.h"
 #include "app/run/run.h"
+#include "app/run/standstill_watch.h"
 #include "app/worlds/orders_file.h"
 #include "core/hash.h"
 
@@ -44,7 +46,9 @@ struct Run::Schedule {
 /// Advances to this tick; false if the run failed. A request ends it early, at the end of the current window.
 bool Run::advance_to(Tick target) {
     Result<> looked_after = Ok{};
+    StandstillWatch standstill;
     const Result<> stepped = simulation_->run_until(target, [&] {
+        if (auto line = standstill.look(*simulation_, monotonic_ms())) notices_.push_back(std::move(*line));
         show_progress();
         looked_after = members_->look_after(*simulation_);
         take_requests();
@@ -114,7 +118,7 @@ bool Run::take_picture() {
     });
     progress_.clear();
     if (!taken) return fail(taken.error());
-    fmt::print(stderr, "wrote {}, {} x {} pixels\n", o_.snapshot.file, o_.snapshot.width, o_.snapshot.height);
+    say(stderr, "wrote {}, {} x {} pixels\n", o_.snapshot.file, o_.snapshot.width, o_.snapshot.height);
     return true;
 }
 
@@ -124,7 +128,7 @@ bool Run::look(const Schedule& due) {
     if (due.trace.at(now) && !write_trace()) return false;
     if (due.contacts.at(now) && !write_contacts()) return false;
     if (due.dataset.at(now) && !write_dataset()) return false;
-    if (due.hash.at(now)) fmt::print("{:.6f} s  {}\n", simulation_->time_s(), to_hex(simulation_->hash()));
+    if (due.hash.at(now)) say("{:.6f} s  {}\n", simulation_->time_s(), to_hex(simulation_->hash()));
     if (due.picture.at(now)) collect_paths();
     const Result<> checked = journal_->check(now, simulation_->hash());
     if (!checked) fail(checked.error());
@@ -203,7 +207,7 @@ void Run::report_notices() {
           std::exchange(notices_, {}), gateway_ ? gateway_->take_notices() : std::vector<std::string>()})
         for (const std::string& notice : notices) {
             if (log_) log_->event(simulation_->tick(), notice);
-            if (!o_.quiet && o_.log != "-") progress_.clear(), fmt::print(stderr, "roboss: {}\n", notice);
+            if (!o_.quiet && o_.log != "-") progress_.clear(), say(stderr, "roboss: {}\n", notice);
         }
 }
 

@@ -13,10 +13,11 @@
 namespace roboss {
 namespace {
 
-constexpr std::int64_t kSilence_ms = 1'000;     // silence after which a Simulator counts as lost
-constexpr std::int64_t kClientGone_ms = 5'000;  // a Client whose process is gone and does not come back
-constexpr double kCheckpointEvery_s = 0.2;      // of stepping time: bounds the work lost with a Simulator
+constexpr std::int64_t kSilence_ms = 1'000;      // silence after which a Simulator counts as lost
+constexpr std::int64_t kClientGone_ms = 10'000;  // a Client whose process is gone, until its successor joins
+constexpr double kCheckpointEvery_s = 0.2;       // of stepping time: bounds the work lost with a Simulator
 constexpr int kStartedAgainMax = 3;
+constexpr std::int64_t kLook_ms = 20;
 constexpr std::uint32_t kOnOneComputer_ms = 5'000;  // no network can fail: a slow process is only busy
 constexpr std::int64_t kJoin_ms = 7'000;            // without another process joining
 constexpr std::int64_t kLinked_ms = 100;            // CPU time of a start, without the world
@@ -111,6 +112,9 @@ Result<> RunMembers::watch_start(const Simulation& simulation) {
 
 Result<> RunMembers::look_after(const Simulation& simulation) {
     if (o_.processes == 0) return Ok{};
+    const std::int64_t now = monotonic_ms();  // it asks the kernel about every process: not in every turn
+    if (now - looked_ms_ < kLook_ms) return Ok{};
+    looked_ms_ = now;
     if (processes_.starting()) return watch_start(simulation);
     for (std::string& line : processes_.take_ended()) notices_.push_back(std::move(line));
     if (processes_.count() > 0) return Ok{};
@@ -127,10 +131,11 @@ std::vector<std::string> RunMembers::take_notices() {
     return std::exchange(notices_, {});
 }
 
-void RunMembers::await_exit(bool failed) {
+void RunMembers::end(const RunOver& over, bool abandoned) {
     if (open_bus_ == nullptr) return;
-    if (!failed) open_bus_->flush(1'000);
-    processes_.await_exit(failed ? 0 : kFarewell_ms);
+    open_bus_->say_farewell({over.reason, over.failed});
+    if (!abandoned) open_bus_->flush(1'000);
+    processes_.await_exit(abandoned ? 0 : kFarewell_ms);
 }
 
 }  // namespace roboss

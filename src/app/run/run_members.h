@@ -36,8 +36,9 @@ class RunMembers {
     Result<> look_after(const Simulation& simulation);
     /// What happened since the last call, one line each.
     std::vector<std::string> take_notices();
-    /// Waits some seconds for the processes to end after the Controller dismissed them; not after a failure.
-    void await_exit(bool failed);
+    /// Says why the run is over to all who are connected, and waits some seconds for the processes to end;
+    /// not if they are `abandoned`.
+    void end(const RunOver& over, bool abandoned);
 
   private:
     explicit RunMembers(const RunOptions& options) : o_(options) {}
@@ -52,6 +53,7 @@ class RunMembers {
     SimulatorProcesses processes_;
     std::int64_t patience_ms_ = 0;  // with processes that do not join
     std::vector<std::string> notices_;
+    std::int64_t looked_ms_ = 0;
     int started_again_ = 0;
 };
 

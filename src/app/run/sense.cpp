@@ -8,6 +8,7 @@
 
 #include "app/commands/numbers.h"
 #include "app/output/reading_file.h"
+#include "app/output/say.h"
 #include "app/run/run.h"
 #include "app/run/sensed_states.h"
 #include "core/similar.h"
@@ -77,10 +78,10 @@ Result<> take_reading(const SenseOptions& options, const SensedRun& run) {
     Result<Sample> sample = sources.read(robot, found.value().second, run.seed);
     if (!sample) return sample.error();
     for (const std::string& problem : sources.problems())
-        fmt::print(stderr, "note: a picture is not shown: {}\n", problem);
+        say(stderr, "note: a picture is not shown: {}\n", problem);
     const SensorSpec& spec = run.model->type_of(robot).sensors[found.value().second].spec;
     const Result<> written = write_reading(options.file, std::move(sample).value(), spec);
-    if (written) fmt::print(stderr, "wrote {}\n", options.file);
+    if (written) say(stderr, "wrote {}\n", options.file);
     return written;
 }
 

@@ -2,10 +2,24 @@
 #include "app/viewer/viewer.h"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
+#include <cstdlib>
+#include <filesystem>
 #include <random>
 
+#include "app/output/say.h"
+#include "net/key_folder.h"
+#include "net/meeting_place.h"
+
 namespace roboss {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kUrlsOf = ".urls";  // behind the process, in the folder of runs
+
+}  // namespace
 
 void add_viewer_options(CLI::App& command, ViewerOptions& o, ViewerDefault by_default) {
     const std::string group = "Viewer (docs/viewer.md)";
@@ -44,9 +58,37 @@ void add_viewer_options(CLI::App& command, ViewerOptions& o, ViewerDefault by_de
             ->group(group);
 }
 
+namespace {
+
+/// Writes addresses with tokens to a file that only this user can read. The answer: where it is.
+Result<fs::path> keep_secret(const std::vector<std::string>& lines) {
+    const Result<fs::path> folder = run_folder();
+    if (!folder) return folder.error();
+    std::error_code ignored;
+    for (const fs::directory_entry& entry : fs::directory_iterator(folder.value(), ignored))
+        if (entry.path().extension() == kUrlsOf && !is_alive(std::atoi(entry.path().stem().c_str())))
+            fs::remove(entry.path(), ignored);
+    const fs::path file = folder.value() / (std::to_string(getpid()) + kUrlsOf);
+    std::string text;
+    for (const std::string& line : lines) text += line + "\n";
+    if (Result<> written = write_private(file, text); !written) return written.error();
+    return file;
+}
+
+}  // namespace
+
 void print_urls(const Gateway& gateway) {
-    fmt::print(stderr, "roboss: viewer at {}\n", gateway.url());
-    for (const std::string& url : gateway.other_urls()) fmt::print(stderr, "roboss: viewer {}\n", url);
+    std::vector<std::string> lines{"viewer at " + gateway.url()};
+    for (const std::string& url : gateway.other_urls()) lines.push_back("viewer " + url);
+    const std::string::size_type token = lines.front().find("?token=");
+    if (token == std::string::npos || isatty(STDERR_FILENO) == 1) {
+        for (const std::string& line : lines) say(stderr, "roboss: {}\n", line);
+        return;
+    }
+    const Result<fs::path> file = keep_secret(lines);
+    say(stderr, "roboss: {}; {}\n", lines.front().substr(0, token),
+        file ? "its addresses with their tokens are in " + file.value().string()
+             : "its tokens cannot be kept: " + file.error().text());
 }
 
 Result<std::unique_ptr<Gateway>> open_viewer(const ViewerOptions& o, bool journal) {

@@ -40,49 +40,96 @@ void ClientService::take_hello(Bus& bus, const Address& from, const ClientHello&
         return notices_.dropped("ClientHello", tick, "its sender is not a Client");
     if (model_server_.is_earlier(hello.model_hash))
         return bus.send(kControllerAddress, from, ModelChanged{model_->hash});
-    if (hello.model_hash != model_->hash)
-        return bus.send(kControllerAddress, from, Refused{"its world is not this run's"});
-    // The run follows a log, which has its replies so far.
-    const bool follows_log = scheduled_until < recorder_.logged_until();
-    ClientHello new_hello = hello;
-    if (options_.went_back) {  // its replies were for a discarded history
-        new_hello.expected = -1;
-        new_hello.acknowledged = new_hello.last_reply;
+    if (const std::optional<Error> objection = objection_to(from, hello)) {
+        notices_.add("client '" + hello.name + "' refused: " + objection->message + " [" + objection->code +
+                     "]");
+        return bus.send(kControllerAddress, from, Refused{objection->text()});
     }
-    bool is_new = false;
-    const ClientId id = seat_for(from, new_hello, follows_log ? tick : scheduled_until, is_new);
-    ClientSeat& seat = seats_[id.index()];
+    const auto here = std::ranges::find_if(
+        seats_, [&](const ClientSeat& seat) { return seat.joined && seat.address == from; });
+    const bool is_new = here == seats_.end();
+    ClientSeat& seat = is_new ? seat_for(hello) : *here;
+    const ClientId id(static_cast<std::size_t>(&seat - seats_.data()));
+    const bool succeeds = is_new && seat.joined;
+    if (is_new) {
+        ClientHello new_hello = hello;
+        if (options_.went_back) {  // its replies were for a discarded history
+            new_hello.expected = -1;
+            new_hello.acknowledged = new_hello.last_reply;
+        }
+        // The run follows a log, which has its replies so far.
+        const bool follows_log = scheduled_until < recorder_.logged_until();
+        sit_down(seat, from, new_hello, follows_log ? tick : scheduled_until);
+    }
     seat.vanished_ms.reset();
     bus.send(kControllerAddress, from, ClientWelcome{id, seat.first, options_.seed});
     if (!is_new) return;
-    notices_.add("client '" + seat.name + "' joined at tick " + std::to_string(tick));
-    recorder_.joined(id, seat.name);
+    seat.heard_ms = bus.now_ms();
+    seat.sent_ms = 0;
+    due_ = due_ || !seat.unanswered.empty();
+    notices_.add("client '" + seat.name + "' joined at tick " + std::to_string(tick) +
+                 (succeeds ? ", in the place of one that had vanished" : ""));
+    if (!succeeds) recorder_.joined(id, seat.name);
     if (seat.observer) recorder_.gone(id);
     const bool is_stepping = scheduled_until > tick;
-    if (!is_stepping && observes(seat, tick)) queue_observation(id);
+    if (!is_stepping && seat.unanswered.empty() && observes(seat, tick)) queue_observation(id);
 }
 
-ClientId ClientService::seat_for(const Address& address, const ClientHello& hello, Tick earliest,
-                                 bool& is_new) {
-    auto seat = std::find_if(seats_.begin(), seats_.end(),
-                             [&](const ClientSeat& s) { return s.joined && s.address == address; });
-    is_new = seat == seats_.end();
-    if (is_new) {
-        seat = std::find_if(seats_.begin(), seats_.end(),
-                            [&](const ClientSeat& s) { return !s.joined && s.name == hello.name; });
-        if (seat == seats_.end()) seat = seats_.insert(seats_.end(), ClientSeat{});
-        seat->name = hello.name;
-        seat->address = address;
-        seat->period = hello.period;
-        seat->latency = hello.latency;
-        seat->synchronous = hello.synchronous;
-        seat->observer = hello.observer;
-        seat->joined = true;
-        seat->first = next_multiple(std::max(earliest, hello.expected), hello.period);
-        seat->last_reply = seat->acknowledged = hello.acknowledged;
-        seat->reply_awaited = hello.last_reply;
-    }
-    return ClientId(static_cast<std::size_t>(seat - seats_.begin()));
+/// The Client of this name for which the run waits, or would.
+ClientSeat* ClientService::seat_named(const std::string& name) {
+    const auto seat = std::ranges::find_if(
+        seats_, [&](const ClientSeat& s) { return s.serves() && !s.observer && s.name == name; });
+    return seat == seats_.end() ? nullptr : &*seat;
+}
+
+std::optional<Error> ClientService::objection_to(const Address& from, const ClientHello& hello) {
+    if (hello.model_hash != model_->hash)
+        return Error{"its world is not this run's", "start it again: it gets the world from the Controller",
+                     "other-world"};
+    const ClientSeat* seat = hello.observer ? nullptr : seat_named(hello.name);
+    if (seat == nullptr || seat->address == from) return {};
+    if (!seat->vanished_ms)
+        return Error{"a Client of this name takes part already",
+                     "give this one another name; if the other one has just died, start it again in a second",
+                     "name-taken"};
+    const bool same_times = seat->period == hello.period && seat->latency == hello.latency &&
+                            seat->synchronous == hello.synchronous;
+    if (same_times || !seat->synchronous) return {};
+    return Error{"its predecessor observed every " + std::to_string(seat->period) +
+                     " ticks, with a latency of " + std::to_string(seat->latency) + "; this one asks for " +
+                     std::to_string(hello.period) + " and " + std::to_string(hello.latency),
+                 "start it with the same times, or end the run and begin a branch with the new program: "
+                 "--from JOURNAL --journal JOURNAL",
+                 "other-times"};
+}
+
+/// That of its predecessor, which has vanished; or one that waits for it; or a new one.
+ClientSeat& ClientService::seat_for(const ClientHello& hello) {
+    if (!hello.observer)
+        if (ClientSeat* before = seat_named(hello.name)) return *before;
+    const auto waits =
+        std::ranges::find_if(seats_, [&](const ClientSeat& s) { return !s.joined && s.name == hello.name; });
+    return waits == seats_.end() ? seats_.emplace_back() : *waits;
+}
+
+/// A successor is asked again what its predecessor did not answer.
+void ClientService::sit_down(ClientSeat& seat, const Address& address, const ClientHello& hello,
+                             Tick earliest) {
+    seat.name = hello.name;
+    seat.address = address;
+    seat.period = hello.period;
+    seat.latency = hello.latency;
+    seat.synchronous = hello.synchronous;
+    seat.observer = hello.observer;
+    seat.joined = true;
+    seat.first = seat.unanswered.empty()
+                     ? next_multiple(std::max({earliest, hello.expected, seat.answered + 1}), hello.period)
+                     : seat.unanswered.front();
+    seat.last_reply = seat.acknowledged = hello.acknowledged;
+    seat.reply_awaited = hello.last_reply;
+    seat.acknowledge_at.reset();
+    seat.refused.clear();
+    seat.sequence_before = seat.sequence;
 }
 
 ClientSeat* ClientService::joined_at(Bus& bus, const Address& from, ClientId id) {
@@ -104,6 +151,7 @@ std::size_t ClientService::take_reply(Bus& bus, const Address& from, const Clien
         seat->refused.pop_front();
     if (reply.number == seat->last_reply + 1) {
         seat->last_reply = reply.number;
+        seat->answered = std::max(seat->answered, reply.observed);
         if (!recorder_.has_reply(reply.client, seat->synchronous, reply.observed))
             refused = take_orders(*seat, reply, scheduled_until);
         std::erase_if(seat->unanswered, [&](Tick tick) { return tick == reply.observed; });
@@ -123,7 +171,9 @@ std::size_t ClientService::take_orders(ClientSeat& seat, const ClientReply& repl
     const Tick earliest = stampable(scheduled_until);
     const Tick apply_at = seat.synchronous ? std::max(reply.observed + seat.latency, earliest) : earliest;
     for (const ClientOrder& given : reply.orders) {
-        const Order order{apply_at, reply.client, given.sequence, given.robot, given.action};
+        const std::uint64_t sequence = seat.sequence_before + given.sequence;
+        seat.sequence = std::max(seat.sequence, sequence);
+        const Order order{apply_at, reply.client, sequence, given.robot, given.action};
         if (Result<> checked = check_order(*model_, order); !checked) {
             ++refused;
             seat.refused.push_back(
@@ -158,7 +208,7 @@ void ClientService::take_bye(Bus& bus, const Address& from, const ClientBye& bye
     const bool is_news = !seat->gone && bye.number > seat->last_reply;
     if (is_news) {
         seat->last_reply = bye.number;
-        drop(bye.client);
+        drop(bye.client, !bye.failed);
     }
     seat->acknowledge_at = recorder_.given();
     if (!is_news) return;
@@ -171,16 +221,22 @@ void ClientService::take_bye(Bus& bus, const Address& from, const ClientBye& bye
         notices_.add("client '" + seat->name + "' left");
 }
 
-void ClientService::drop(ClientId id) {
+void ClientService::drop(ClientId id, bool for_good) {
     ClientSeat& seat = seats_[id.index()];
     seat.gone = true;
-    recorder_.gone(id);
+    if (for_good) recorder_.gone(id);
     for (const Tick tick : std::exchange(seat.unanswered, {})) directory_.forget(id, tick);
 }
 
 void ClientService::take_vanished(const Address& address, std::int64_t now_ms) {
-    for (ClientSeat& seat : seats_)
-        if (seat.serves() && seat.address == address && !seat.vanished_ms) seat.vanished_ms = now_ms;
+    for (ClientSeat& seat : seats_) {
+        if (!seat.serves() || seat.address != address || seat.vanished_ms) continue;
+        seat.vanished_ms = now_ms;
+        if (seat.synchronous && !seat.observer && options_.gone_ms > 0)
+            notices_.add("client '" + seat.name + "' has vanished; the run waits " +
+                         std::to_string(options_.gone_ms) +
+                         " ms for it, or for another of its name [client-vanished]");
+    }
 }
 
 bool ClientService::stays_away(const ClientSeat& seat, std::int64_t now_ms) const {
@@ -196,7 +252,7 @@ void ClientService::notice_losses(std::int64_t now_ms) {
         ClientSeat& seat = seats_[i];
         if (seat.unanswered.empty()) seat.heard_ms = now_ms;
         if (!seat.serves() || !stays_away(seat, now_ms)) continue;
-        drop(ClientId(i));
+        drop(ClientId(i), !seat.synchronous);
         const std::string what = "client '" + seat.name + "' " +
                                  (seat.vanished_ms ? "has vanished, " : "has not answered for ") +
                                  std::to_string(now_ms - seat.vanished_ms.value_or(seat.heard_ms)) + " ms" +
@@ -291,6 +347,17 @@ Tick ClientService::limit(Tick tick, bool all_answered) const {
         limit = std::min(limit, open + seat.latency);
     }
     return limit;
+}
+
+std::vector<std::string> ClientService::awaited(Tick tick) const {
+    std::vector<std::string> names;
+    for (const ClientSeat& seat : seats_) {
+        const bool behind =
+            seat.synchronous && (seat.last_reply < seat.reply_awaited ||
+                                 (!seat.unanswered.empty() && seat.unanswered.front() <= tick));
+        if (!seat.joined || (seat.serves() && behind)) names.push_back(seat.name);
+    }
+    return names;
 }
 
 std::vector<std::string> ClientService::names() const {

@@ -32,6 +32,10 @@ struct ClientSeat {
         std::uint64_t reply = 0;
         RefusedOrder order;
     };
+    Tick answered = -1;  // the last observation to which its reply came
+    /// Numbers of its orders: the greatest so far, and that before its present process. Those of a successor
+    /// continue them.
+    std::uint64_t sequence = 0, sequence_before = 0;
     std::deque<Refusal> refused;  // of replies whose acknowledgement it may not have
     std::deque<Tick> unanswered;  // observations sent and not answered, ascending
     std::int64_t sent_ms = 0, heard_ms = 0;
@@ -90,6 +94,8 @@ class ClientService {
     /// a synchronous Client that has not replied yet may still give orders. `tick` itself means wait.
     /// `all_answered`: what it will be once every observation before `tick` is answered.
     Tick limit(Tick tick, bool all_answered = false) const;
+    /// Names of those for whom the world waits at `tick`: they have not joined, or not replied.
+    std::vector<std::string> awaited(Tick tick) const;
     /// By ClientId.
     const std::vector<ClientSeat>& seats() const { return seats_; }
     /// Names of all Clients that ever joined or are expected, by ClientId.
@@ -99,13 +105,18 @@ class ClientService {
     std::vector<std::string> names_serving() const;
 
   private:
-    ClientId seat_for(const Address& address, const ClientHello& hello, Tick earliest, bool& is_new);
+    ClientSeat* seat_named(const std::string& name);
+    /// Why this caller cannot take part; nothing: it can.
+    std::optional<Error> objection_to(const Address& from, const ClientHello& hello);
+    ClientSeat& seat_for(const ClientHello& hello);
+    static void sit_down(ClientSeat& seat, const Address& address, const ClientHello& hello, Tick earliest);
     /// The seat of a Client that has joined at this address; others get ClientUnknown.
     ClientSeat* joined_at(Bus& bus, const Address& from, ClientId id);
     std::size_t take_orders(ClientSeat& seat, const ClientReply& reply, Tick scheduled_until);
     void queue_observation(ClientId id);
     Observation observation_of(const WantedTick& want, const Roster& roster) const;
-    void drop(ClientId id);
+    /// `for_good`: a run that continues from the log does not wait for it.
+    void drop(ClientId id, bool for_good);
     bool stays_away(const ClientSeat& seat, std::int64_t now_ms) const;
     static bool observes(const ClientSeat& seat, Tick tick) {
         return seat.serves() && tick >= seat.first && tick % seat.period == 0;

@@ -171,6 +171,88 @@ TEST_F(Clients, AVanishedOneIsGivenUpAfterAWhile) {
     EXPECT_FALSE(notices.failure());
 }
 
+TEST_F(Clients, TwoOfOneNameAreRefused) {
+    join(kA, "a", 10, 10);
+    join(kB, "a", 10, 10);
+    const auto refused = bus.take<Refused>(kB);
+    ASSERT_EQ(refused.size(), 1u);
+    EXPECT_NE(refused[0].reason.find("[name-taken]"), std::string::npos) << refused[0].reason;
+    EXPECT_EQ(service().names(), (std::vector<std::string>{"a"}));
+    service().take_bye(bus, kA, {ClientId(0u), 1, false, ""});
+    join(kB, "a", 10, 10);
+    EXPECT_EQ(bus.take<ClientWelcome>(kB).size(), 1u) << "the first one has left";
+}
+
+TEST_F(Clients, OfObserversManyMayHaveOneName) {
+    for (const Address& address : {kA, kB}) {
+        service().take_hello(bus, address, {"viewer", sim.model->hash, 10, 10, false, true}, 0);
+        EXPECT_EQ(bus.take<ClientWelcome>(address).size(), 1u);
+    }
+}
+
+TEST_F(Clients, ASuccessorAnswersWhatItsPredecessorDidNot) {
+    options.gone_ms = 50;
+    join(kA, "a", 10, 20);
+    const std::vector<ClientOrder> orders{{1, RobotId(0u), SetVelocity{}}, {2, RobotId(0u), SetVelocity{}}};
+    reply(kA, ClientId(0u), 1, 0, orders);
+    commit(10);
+    commit(20);
+    service().take_vanished(kA, 100);
+    EXPECT_NE(notices.take().back().find("[client-vanished]"), std::string::npos);
+    bus.time_ms = 120;
+    join(kB, "a", 10, 20);
+    const auto welcome = bus.take<ClientWelcome>(kB);
+    ASSERT_EQ(welcome.size(), 1u);
+    EXPECT_EQ(welcome[0].client, ClientId(0u)) << "the seat is the same";
+    EXPECT_EQ(welcome[0].first, 10);
+    service().send_observations(bus, roster);
+    EXPECT_EQ(bus.take<Observation>(kB).size(), 2u) << "of ticks 10 and 20";
+    EXPECT_EQ(service().limit(20), 30);
+    reply(kB, ClientId(0u), 1, 10, orders);
+    EXPECT_EQ(service().limit(20), 30);
+    reply(kB, ClientId(0u), 2, 20, {{3, RobotId(0u), SetVelocity{}}});
+    EXPECT_EQ(service().limit(20), 30) << "the next observation";
+    EXPECT_EQ(order_log.size(), 5u) << "no order of the successor is taken for one of its predecessor";
+    bus.time_ms = 1'000;
+    service().notice_losses(bus.time_ms);
+    EXPECT_FALSE(notices.failure());
+    reply(kA, ClientId(0u), 2, 10);
+    EXPECT_EQ(bus.take<ClientUnknown>(kA).size(), 1u) << "the predecessor has no seat any more";
+    join(kA, "a", 10, 20);
+    EXPECT_EQ(bus.take<Refused>(kA).size(), 1u);
+}
+
+TEST_F(Clients, ASuccessorIsNotAskedAgainWhatItsPredecessorAnswered) {
+    options.gone_ms = 50;
+    join(kA, "a", 10, 10);
+    commit(10);
+    reply(kA, ClientId(0u), 1, 0);
+    reply(kA, ClientId(0u), 2, 10);
+    service().take_vanished(kA, 100);
+    join(kB, "a", 10, 10);
+    EXPECT_EQ(bus.take<ClientWelcome>(kB).at(0).first, 20);
+    service().send_observations(bus, roster);
+    EXPECT_TRUE(bus.take<Observation>(kB).empty());
+    EXPECT_EQ(service().limit(10), 20);
+    commit(20);
+    service().send_observations(bus, roster);
+    EXPECT_EQ(bus.take<Observation>(kB).size(), 1u);
+}
+
+TEST_F(Clients, ASuccessorWithOtherTimesIsRefusedAndHearsHowToBranch) {
+    options.gone_ms = 50;
+    join(kA, "a", 10, 10);
+    service().take_vanished(kA, 100);
+    join(kB, "a", 20, 10);
+    const auto refused = bus.take<Refused>(kB);
+    ASSERT_EQ(refused.size(), 1u);
+    EXPECT_NE(refused[0].reason.find("[other-times]"), std::string::npos) << refused[0].reason;
+    EXPECT_NE(refused[0].reason.find("--from"), std::string::npos) << refused[0].reason;
+    service().notice_losses(151);
+    ASSERT_TRUE(notices.failure());
+    EXPECT_EQ(notices.failure()->code, "client-lost");
+}
+
 TEST_F(Clients, AFailureOfOneEndsTheRun) {
     join(kA, "a", 10, 10);
     service().take_bye(bus, kA, {ClientId(0u), 1, true, "no wheels"});

@@ -185,6 +185,25 @@ bool Controller::waits_for_log() const {
     return phase_ == Phase::kStepping && round_->all_answered() && !recorder_.may_commit();
 }
 
+std::string Controller::waits_for() const {
+    std::vector<std::string> whom;
+    if (phase_ == Phase::kStepping || phase_ == Phase::kRecovering) {
+        if (waits_for_log()) whom.emplace_back("the disk of the journal");
+        for (const SeatId seat_id : round_->unanswered())
+            whom.push_back("simulator " + std::to_string(seat_id) + " (" + roster_.seat(seat_id).name + ")");
+    } else if (phase_ == Phase::kReleasing) {
+        whom.emplace_back("the states of Simulators that leave");
+    } else {
+        const std::size_t here = roster_.workers().size(), wanted = started() ? 1 : options_.simulators;
+        if (here < wanted) whom.push_back(std::to_string(wanted - here) + " Simulators to join");
+        for (const std::string& name : clients_.awaited(tick())) whom.push_back("client '" + name + "'");
+    }
+    constexpr std::size_t kMost = 4;
+    std::string text;
+    for (std::size_t i = 0; i < std::min(whom.size(), kMost); ++i) text += (i == 0 ? "" : ", ") + whom[i];
+    return whom.size() <= kMost ? text : text + " and " + std::to_string(whom.size() - kMost) + " more";
+}
+
 bool Controller::dismiss_simulator() {
     const std::vector<SeatId> workers = roster_.workers();
     if (workers.size() < 2) return false;

@@ -139,6 +139,13 @@ void Round::send(Bus& bus, const Roster& roster, std::int64_t resend_ms,
     }
 }
 
+std::vector<SeatId> Round::unanswered() const {
+    std::vector<SeatId> seats;
+    for (const Sent& sent : sent_)
+        if (std::ranges::find(seats, sent.seat_id) == seats.end()) seats.push_back(sent.seat_id);
+    return seats;
+}
+
 std::optional<Round::Answered> Round::answered_by(SeatId seat_id, const WindowResult& result, bool& fits) {
     fits = true;
     if (result.epoch != span_.epoch || result.window != span_.window) return std::nullopt;

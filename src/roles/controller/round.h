@@ -58,6 +58,8 @@ class Round {
     /// there is none. `fits`: false if the result contradicts its assignment.
     std::optional<Answered> answered_by(SeatId seat_id, const WindowResult& result, bool& fits);
     bool all_answered() const { return sent_.empty(); }
+    /// Those whose answers are missing.
+    std::vector<SeatId> unanswered() const;
 
     /// Adds to a seat's stepping cost. spent_ns: in the whole window; busiest_ns: the maximum over the seats
     /// since the last attempt began.

@@ -136,6 +136,7 @@ void Simulator::handle(Bus& bus, Envelope& envelope) {
         gone_ = true;
     } else if (const auto* over = std::get_if<RunOver>(&envelope.message)) {
         over_ = over->reason;
+        failed_ = over->failed;
         gone_ = true;
     }
     if (gone_) bus.end_keep_alive(self_);

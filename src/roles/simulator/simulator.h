@@ -58,6 +58,8 @@ class Simulator {
     bool dismissed() const { return dismissed_; }
     /// Why the run is over; empty: it is not.
     const std::string& over() const { return over_; }
+    /// It is over because it could not go on.
+    bool failed() const { return failed_; }
     /// Invalid messages that were dropped since the last call: one line each, key=value.
     std::vector<std::string> take_notices() { return std::exchange(notices_, {}); }
 
@@ -91,7 +93,7 @@ class Simulator {
 
     SimulatorId id_;
     std::string refusal_, over_;
-    bool leaving_ = false, gone_ = false, outdated_ = false, dismissed_ = false;
+    bool leaving_ = false, gone_ = false, outdated_ = false, dismissed_ = false, failed_ = false;
     std::int64_t asked_ms_ = kLongAgo, heartbeat_sent_ms_ = kLongAgo;
 
     StateStore store_;

@@ -1,0 +1,27 @@
+// See run_keys.h.
+#include "net/run_keys.h"
+
+#include <utility>
+
+namespace roboss {
+namespace {
+
+constexpr int kRunKeys_days = 3'650;  // keys of a run end with it
+
+}  // namespace
+
+Result<RunKeys> new_run_keys(const std::string& simulation) {
+    const Result<KeyPair> authority = new_authority("roboss", kRunKeys_days);
+    if (!authority) return authority.error();
+    RunKeys keys;
+    for (auto& [credentials, seat] :
+         {std::pair{&keys.controller, Seat::kController}, std::pair{&keys.member, Seat::kMember}}) {
+        Result<KeyPair> own =
+            new_certificate(authority.value(), {simulation.substr(0, 60), seat}, kRunKeys_days);
+        if (!own) return own.error();
+        *credentials = {authority.value().certificate, std::move(own).value(), {}};
+    }
+    return keys;
+}
+
+}  // namespace roboss
