@@ -106,16 +106,16 @@ Refusal decode_refusal(std::span<const std::uint8_t> bytes) {
     return {harmless(refusal.code), harmless(refusal.reason)};
 }
 
-std::vector<std::uint8_t> encode_farewell(const Farewell& farewell) {
+std::vector<std::uint8_t> encode_farewell(const Departure& farewell) {
     wire::Writer a;
     wire::field(a, farewell.failed);
     wire::field(a, farewell.reason);
     return a.take();
 }
 
-Farewell decode_farewell(std::span<const std::uint8_t> bytes) {
+Departure decode_farewell(std::span<const std::uint8_t> bytes) {
     wire::Reader a(bytes);
-    Farewell farewell;
+    Departure farewell;
     wire::field(a, farewell.failed);
     wire::field(a, farewell.reason);
     if (a.failed()) return {true, "no reason is given"};

@@ -117,7 +117,7 @@ TEST(Frames, ContentsSurviveTheirBytes) {
     ASSERT_TRUE(hello.ok());
     EXPECT_EQ(hello.value().simulation, "city");
     EXPECT_EQ(hello.value().name, "node7/4711");
-    const Farewell over = decode_farewell(encode_farewell({true, "no fuel\n  remedy: fill it up"}));
+    const Departure over = decode_farewell(encode_farewell({true, "no fuel\n  remedy: fill it up"}));
     EXPECT_TRUE(over.failed);
     EXPECT_EQ(over.reason, "no fuel\n  remedy: fill it up");
     EXPECT_EQ(decode_refusal(encode_refusal({"a", "b"})).reason, "b");

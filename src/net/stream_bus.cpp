@@ -91,7 +91,7 @@ std::optional<Error> StreamBus::refusal() const {
 }
 
 std::optional<RunEnd> StreamBus::run_end() const {
-    const std::optional<Farewell> said = network_->switchboard->farewell();
+    const std::optional<Departure> said = network_->switchboard->farewell();
     return said ? std::optional(RunEnd{said->reason, said->failed}) : std::nullopt;
 }
 

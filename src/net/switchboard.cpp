@@ -198,12 +198,12 @@ std::optional<Error> Switchboard::refusal() const {
     return refusal_;
 }
 
-std::optional<Farewell> Switchboard::farewell() const {
+std::optional<Departure> Switchboard::farewell() const {
     const std::lock_guard lock(mutex_);
     return farewell_;
 }
 
-void Switchboard::say_farewell(const Farewell& farewell) {
+void Switchboard::say_farewell(const Departure& farewell) {
     const std::vector<std::uint8_t> bytes = encode_farewell(farewell);
     const std::lock_guard lock(mutex_);
     for (const Peer& peer : peers_)

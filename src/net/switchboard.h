@@ -44,8 +44,8 @@ class Switchboard {
     bool reaches(const Address& address) const { return routes_.leads_to(address); }
     std::optional<Error> refusal() const;
     /// What the Controller said when it ended; nothing: it has not, or another one is there.
-    std::optional<Farewell> farewell() const;
-    void say_farewell(const Farewell& farewell);
+    std::optional<Departure> farewell() const;
+    void say_farewell(const Departure& farewell);
     bool all_sent() const;
     std::vector<std::string> take_notices();
     std::string where() const;
@@ -98,7 +98,7 @@ class Switchboard {
     std::set<Peer> peers_;
     std::vector<std::string> notices_;
     std::optional<Error> refusal_;
-    std::optional<Farewell> farewell_;
+    std::optional<Departure> farewell_;
     std::string where_, trouble_;
 };
 

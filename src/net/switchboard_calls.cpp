@@ -190,7 +190,7 @@ void Switchboard::ready(Connection& peer) {
 }
 
 void Switchboard::take_farewell(Connection& peer, const Frame& frame) {
-    Farewell farewell = decode_farewell(frame.content);
+    Departure farewell = decode_farewell(frame.content);
     if (!member_) {
         notice(peer.who() + " ends: " + farewell.reason + " [left]");
         return peer.close("it has ended");
