@@ -15,7 +15,7 @@ name=roboss-$version-linux-$(uname -m)
 work=build/package
 rm -rf "$work"
 mkdir -p "$work"
-cmake --install build/release --strip --prefix "$PWD/$work/$name" >"$work/install.log"
+cp -a build/python/prefix "$work/$name"  # build_wheel.sh has installed it there
 mkdir -p "$work/$name/share/doc/roboss"
 cp README.md CHANGELOG.md LICENSE "$work/$name/share/doc/roboss"
 

@@ -9,7 +9,7 @@ releases=("$@")
 [[ $# -gt 0 ]] || releases=(bookworm trixie)
 expected=$(mktemp)
 trap 'rm -f "$expected"' EXIT
-build/release/bin/roboss run example:city --headless --duration 5 --speed max --quiet --json "$expected"
+build/release/bin/roboss run example:city --headless --duration 5 --speed max --quiet --json "$expected" >/dev/null
 hash=$(sed -n 's/.*"state_hash": "\(.*\)".*/\1/p' "$expected")
 passed=0 failed=0
 
@@ -46,7 +46,7 @@ for release in "${releases[@]}"; do
     tools/bare_root.sh "$release" "$root" >/dev/null
     rm -rf "$root/root/dist"
     cp -r dist "$root/root/dist"
-    try archive "$root" 'tar xf roboss-*.tar.xz -C /opt; PATH=$(echo /opt/roboss-*/bin):$PATH'
+    try archive "$root" 'apt-get update -q; apt-get install -q -y --no-install-recommends xz-utils; tar xf roboss-*.tar.xz -C /opt; PATH=$(echo /opt/roboss-*/bin):$PATH'
     if [[ $release == bookworm ]]; then
         try deb "$root" 'apt-get update -q; apt-get install -q -y --no-install-recommends ./roboss_*.deb'
         tools/bare_root.sh "$release" "$root" apt-get remove -q -y roboss >/dev/null

@@ -8,6 +8,8 @@
 #include <iterator>
 #include <utility>
 
+#include "core/installation.h"
+
 namespace roboss {
 namespace {
 
@@ -79,10 +81,7 @@ std::optional<PageFile> PageFiles::find(std::string_view path) const {
 fs::path find_page_folder(const std::string& wanted) {
     if (!wanted.empty()) return wanted;
     std::error_code error;
-    const fs::path program = fs::canonical("/proc/self/exe", error);
-    if (error) return {};
-    const fs::path above = program.parent_path().parent_path();  // build/PRESET or the installation's prefix
-    const fs::path page = above / "share" / "roboss" / "web";
+    const fs::path page = installation_prefix() / "share" / "roboss" / "web";
     return fs::is_regular_file(page / "index.html", error) ? page : fs::path();
 }
 

@@ -22,6 +22,23 @@ Pose pose_in_file(const Tree& tree, std::size_t body) {
     return X;
 }
 
+bool is_active(const Attributes& source, const Reading& reading) {
+    return reading.settings.equalities && source.boolean("active", true);
+}
+
+/// The two joints that a <joint> ties; none where the file lacks one.
+struct TiedJoints {
+    std::optional<Tree::JointPlace> first, second;
+    explicit operator bool() const { return first && second; }
+};
+
+TiedJoints tied_joints(const Attributes& source, const Tree& tree, const Reading& reading) {
+    const auto find = [&](const char* attribute) {
+        return tree.find_joint(reading.names.full(source.text(attribute)));
+    };
+    return {find("joint1"), find("joint2")};
+}
+
 class EqualityReader {
   public:
     EqualityReader(const Tree& tree, const Reading& reading)
@@ -31,11 +48,9 @@ class EqualityReader {
     std::optional<std::pair<std::size_t, std::size_t>> bodies_of_joints(const Element& element) const {
         if (std::string(element.node.name()) != "joint") return std::nullopt;
         const Attributes source = r_.defaults.of(element);
-        if (!r_.settings.equalities || !source.boolean("active", true)) return std::nullopt;
-        const auto first = tree_.find_joint(r_.names.full(source.text("joint1"))),
-                   second = tree_.find_joint(r_.names.full(source.text("joint2")));
-        if (!first || !second) return std::nullopt;
-        return std::pair{first->body, second->body};
+        const TiedJoints joints = tied_joints(source, tree_, r_);
+        if (!is_active(source, r_) || !joints) return std::nullopt;
+        return std::pair{joints.first->body, joints.second->body};
     }
 
     /// Of a <connect> or <weld> that takes effect. Problems are reported if `tells`.
@@ -43,7 +58,7 @@ class EqualityReader {
         const std::string kind = element.node.name();
         if (kind != "connect" && kind != "weld") return std::nullopt;
         const Attributes source = r_.defaults.of(element);
-        if (!r_.settings.equalities || !source.boolean("active", true)) return std::nullopt;
+        if (!is_active(source, r_)) return std::nullopt;
         const auto found = source.has("site1") ? by_sites(source, tells) : by_bodies(source, tells);
         if (!found) return std::nullopt;
         if (can_tie(*found)) return found;
@@ -121,8 +136,7 @@ void add_follower(const Attributes& source, Robots& robots, const Reading& readi
     const auto wrong = [&](const std::string& what, const std::string& remedy) {
         reading.warn(source.where(), "ignored-element", "an equality between joints " + what, remedy);
     };
-    const auto first = robots.tree().find_joint(reading.names.full(source.text("joint1")));
-    const auto second = robots.tree().find_joint(reading.names.full(source.text("joint2")));
+    const auto [first, second] = tied_joints(source, robots.tree(), reading);
     if (!source.has("joint2"))
         return wrong("that holds one joint still has no effect", "Leave the joint out: that welds the body.");
     if (!first || !second) {
@@ -182,8 +196,8 @@ void read_part(Robots& robots, const Reading& reading) {
     const EqualityReader reader(robots.tree(), reading);
     for (const Element& element : equalities) {
         const Attributes source = reading.defaults.of(element);
-        const bool active = reading.settings.equalities && source.boolean("active", true);
-        if (std::string(element.node.name()) == "joint" && active) add_follower(source, robots, reading);
+        if (std::string(element.node.name()) == "joint" && is_active(source, reading))
+            add_follower(source, robots, reading);
         if (const auto ends = reader.ends_of(element, true)) add_joint(element, *ends, robots);
     }
 }

@@ -137,6 +137,22 @@ TEST(CompileLoops, MimicOfWhatIsNotThereIsAnError) {
     EXPECT_TRUE(has(compile_one(apart).diagnostics, "coupling-apart"));
 }
 
+TEST(CompileLoops, MimicMakesOneRobotOfPartsThatStandOnTheWorld) {
+    ModelSpec m = row_of_three();
+    m.joints.push_back(joint(JointSpecKind::kRevolute, "wa", "world", "a", {}, {0, 0, 1}));
+    m.joints.push_back(joint(JointSpecKind::kRevolute, "wb", "world", "b", at_x(1), {0, 0, 1}));
+    m.joints.push_back(joint(JointSpecKind::kRevolute, "wc", "world", "c", at_x(2), {0, 0, 1}));
+    m.joints[2].axes[0].mimic = MimicSpec{"wa", 0, 2, 0, 0, {}};
+    const Compiled c = compile_one(m);
+    ASSERT_NE(c.model, nullptr);
+    ASSERT_EQ(c.model->robots.size(), 2u) << "b stays a robot of its own";
+    const RobotType& tied = c.type();
+    EXPECT_EQ(tied.links.size(), 2u);
+    ASSERT_EQ(tied.couplings.size(), 1u);
+    EXPECT_EQ(tied.couplings[0].multiplier, 2);
+    EXPECT_FALSE(tied.free_base);
+}
+
 TEST(CompileLoops, GearboxNeedsHingesOnItsReference) {
     ModelSpec m = geared_wheels(2);
     const Compiled good = compile_one(m);

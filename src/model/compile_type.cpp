@@ -340,6 +340,21 @@ class PartBuilder {
     std::vector<char> joint_done_;
 };
 
+/// The links that follow each other through couplings of their joints.
+std::vector<std::pair<std::size_t, std::size_t>> coupled_links(const ModelSpec& spec,
+                                                               const std::vector<CouplingSpec>& couplings) {
+    const auto moved_by = [&](const std::string& name) -> std::optional<std::size_t> {
+        const auto joint = std::ranges::find(spec.joints, name, &JointSpec::name);
+        return joint == spec.joints.end() ? std::nullopt : link_index(spec, joint->child);
+    };
+    std::vector<std::pair<std::size_t, std::size_t>> pairs;
+    for (const CouplingSpec& coupling : couplings) {
+        const auto follower = moved_by(coupling.follower), leader = moved_by(coupling.leader);
+        if (follower && leader) pairs.emplace_back(*follower, *leader);
+    }
+    return pairs;
+}
+
 }  // namespace
 
 void float_all(RobotType& type) {
@@ -357,17 +372,12 @@ std::vector<CompiledPart> compile_parts(const ModelSpec& spec, const Surrounding
                                         Diagnostics& diagnostics) {
     const JointGraph graph = build_joint_graph(spec);
     const std::vector<CouplingSpec> couplings = find_couplings(spec, diagnostics);
-    std::vector<char> seen(spec.links.size(), 0);
     std::vector<CompiledPart> parts;
-    for (std::size_t l = 0; l < spec.links.size(); ++l) {
-        if (seen[l]) continue;
-        bool fixed_base = false;
-        const std::vector<std::size_t> links = connected_links(graph, l, seen, fixed_base);
-        const bool is_main = std::any_of(links.begin(), links.end(), [&](std::size_t i) {
-            return spec.links[i].name == spec.canonical_link;
-        });
+    for (const LinkedPart& part : connected_parts(graph, coupled_links(spec, couplings))) {
+        const bool is_main = std::ranges::any_of(
+            part.links, [&](std::size_t i) { return spec.links[i].name == spec.canonical_link; });
         parts.push_back(PartBuilder(spec, around, graph, couplings, shapes, diagnostics)
-                            .build(links, fixed_base, is_main || spec.canonical_link.empty()));
+                            .build(part.links, part.fixed_base, is_main || spec.canonical_link.empty()));
     }
     const bool has_main =
         std::any_of(parts.begin(), parts.end(), [](const CompiledPart& p) { return p.suffix.empty(); });

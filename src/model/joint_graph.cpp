@@ -79,6 +79,26 @@ std::vector<char> span_joints(const ModelSpec& spec) {
     return in_tree;
 }
 
+constexpr std::size_t kNoPart = static_cast<std::size_t>(-1);
+
+/// The links that joints connect with `start`, not walking through the world.
+LinkedPart connected_part(const JointGraph& graph, std::size_t start, std::size_t part,
+                          std::vector<std::size_t>& part_of) {
+    LinkedPart found{{start}, false};
+    part_of[start] = part;
+    for (std::size_t i = 0; i < found.links.size(); ++i) {
+        for (const std::size_t to : graph.neighbours[found.links[i]]) {
+            if (to == graph.world) {
+                found.fixed_base = true;
+            } else if (part_of[to] == kNoPart) {
+                part_of[to] = part;
+                found.links.push_back(to);
+            }
+        }
+    }
+    return found;
+}
+
 }  // namespace
 
 std::optional<std::size_t> link_index(const ModelSpec& spec, const std::string& name) {
@@ -116,23 +136,22 @@ JointGraph build_joint_graph(const ModelSpec& spec) {
     return graph;
 }
 
-std::vector<std::size_t> connected_links(const JointGraph& graph, std::size_t start, std::vector<char>& seen,
-                                         bool& touches_world) {
-    std::vector<std::size_t> found{start};
-    seen[start] = 1;
-    touches_world = false;
-    for (std::size_t i = 0; i < found.size(); ++i) {
-        for (const std::size_t to : graph.neighbours[found[i]]) {
-            if (to == graph.world) {
-                touches_world = true;
-            } else if (!seen[to]) {
-                seen[to] = 1;
-                found.push_back(to);
-            }
-        }
+std::vector<LinkedPart> connected_parts(const JointGraph& graph,
+                                        const std::vector<std::pair<std::size_t, std::size_t>>& tied) {
+    std::vector<LinkedPart> parts;
+    std::vector<std::size_t> part_of(graph.world, kNoPart);
+    for (std::size_t link = 0; link < graph.world; ++link)
+        if (part_of[link] == kNoPart) parts.push_back(connected_part(graph, link, parts.size(), part_of));
+    for (const auto& [a, b] : tied) {
+        const std::size_t into = std::min(part_of[a], part_of[b]), from = std::max(part_of[a], part_of[b]);
+        if (into == from || !parts[into].fixed_base || !parts[from].fixed_base) continue;
+        for (const std::size_t link : parts[from].links)
+            part_of[link] = into, parts[into].links.push_back(link);
+        parts[from].links.clear();
     }
-    std::sort(found.begin(), found.end());
-    return found;
+    std::erase_if(parts, [](const LinkedPart& part) { return part.links.empty(); });
+    for (LinkedPart& part : parts) std::ranges::sort(part.links);
+    return parts;
 }
 
 }  // namespace roboss

@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "world/world.h"
@@ -36,9 +37,15 @@ std::optional<std::size_t> node_index(const ModelSpec& spec, const std::string& 
 /// in the file.
 JointGraph build_joint_graph(const ModelSpec& spec);
 
-/// All links connected with `start` by any joint (not walking through the world), ascending; sets
-/// `touches_world`.
-std::vector<std::size_t> connected_links(const JointGraph& graph, std::size_t start, std::vector<char>& seen,
-                                         bool& touches_world);
+/// The links of one robot, ascending.
+struct LinkedPart {
+    std::vector<std::size_t> links;
+    bool fixed_base = false;  // a joint connects it with the world
+};
+
+/// The parts that joints connect other than through the world, ordered by their first links. Parts with fixed
+/// bases become one where two tied links are in different ones.
+std::vector<LinkedPart> connected_parts(const JointGraph& graph,
+                                        const std::vector<std::pair<std::size_t, std::size_t>>& tied);
 
 }  // namespace roboss

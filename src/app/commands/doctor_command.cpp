@@ -153,8 +153,8 @@ Item example_worlds() {
     if (!all) return {"examples", "none", all.error().message, all.error().remedy};
     std::string missing;
     for (const Example& example : all.value())
-        for (std::size_t i = 0; i < example.programs.size(); ++i)
-            if (example.clients[i].empty()) missing += " " + example.programs[i];
+        for (const ExampleProgram& program : example.programs)
+            if (program.library.empty()) missing += " " + program.name;
     Item item{"examples", fmt::format("{}", all.value().size())};
     if (!missing.empty()) {
         item.problem = "control programs of examples are not built:" + missing;

@@ -35,12 +35,15 @@ int print_examples(bool json) {
         return kSuccess;
     }
     nlohmann::ordered_json printed = nlohmann::ordered_json::array();
-    for (const Example& example : all.value())
+    for (const Example& example : all.value()) {
+        nlohmann::json programs = nlohmann::json::array();
+        for (const ExampleProgram& program : example.programs) programs.push_back(program.name);
         printed.push_back({{"name", example.name},
                            {"summary", example.summary},
                            {"world", example.world.string()},
                            {"orders", example.orders.string()},
-                           {"programs", example.programs}});
+                           {"programs", programs}});
+    }
     fmt::print("{}\n", printed.dump(2));
     return kSuccess;
 }

@@ -15,6 +15,7 @@
 #include "app/output/say.h"
 #include "app/run/run.h"
 #include "app/templates.h"
+#include "core/installation.h"
 
 namespace roboss {
 namespace {
@@ -71,8 +72,7 @@ constexpr const char* kUnknownPrefix = "PREFIX";
 /// Of an installed program, where find_package() finds its library; else a word to be replaced.
 std::string prefix() {
     std::error_code error;
-    const fs::path program = fs::canonical("/proc/self/exe", error);
-    const fs::path prefix = program.parent_path().parent_path();
+    const fs::path prefix = installation_prefix();
     return fs::exists(prefix / "include" / "roboss", error) &&
                    !fs::is_symlink(prefix / "include" / "roboss", error)
                ? prefix.string()

@@ -90,14 +90,13 @@ Result<> take_example(RunOptions& o) {
     o.world = example.value().world.string();
     if (o.orders.empty()) o.orders = example.value().orders.string();
     if (!o.clients.empty() || !o.clients_awaited.empty()) return Ok{};
-    for (std::size_t i = 0; i < example.value().programs.size(); ++i) {
-        const std::string& program = example.value().programs[i];
-        if (example.value().clients[i].empty())
-            return Error{
-                fmt::format("the control program {}.so of {} is not there", program, o.world),
-                fmt::format("build it (tools/build.sh release {}), or run {} without it", program, o.world),
-                "no-program"};
-        o.clients.push_back(example.value().clients[i].string());
+    for (const ExampleProgram& program : example.value().programs) {
+        if (program.library.empty())
+            return Error{fmt::format("the control program {}.so of {} is not there", program.name, o.world),
+                         fmt::format("build it (tools/build.sh release {}), or run {} without it",
+                                     program.name, o.world),
+                         "no-program"};
+        o.clients.push_back(program.library.string());
     }
     return Ok{};
 }

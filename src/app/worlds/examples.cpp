@@ -7,19 +7,14 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "core/installation.h"
+
 namespace roboss {
 namespace {
 
 namespace fs = std::filesystem;
 
 constexpr std::string_view kPrefix = "example:";
-
-/// The prefix of the installation, or build/PRESET: above the folder of this program. Empty if unknown.
-fs::path installation() {
-    std::error_code error;
-    const fs::path program = fs::canonical("/proc/self/exe", error);
-    return error ? fs::path() : program.parent_path().parent_path();
-}
 
 /// The library of a control program: lib/roboss of an installation, lib of a build. Empty if it is not there.
 fs::path library_of(const std::string& program, const fs::path& prefix) {
@@ -38,8 +33,8 @@ Example example_of(const nlohmann::json& entry, const fs::path& folder, const fs
     if (entry.contains("orders")) example.orders = folder / entry.at("orders").get<std::string>();
     if (!entry.contains("programs")) return example;
     for (const nlohmann::json& program : entry.at("programs")) {
-        example.programs.push_back(program.get<std::string>());
-        example.clients.push_back(library_of(example.programs.back(), prefix));
+        const std::string name = program.get<std::string>();
+        example.programs.push_back({name, library_of(name, prefix)});
     }
     return example;
 }
@@ -51,7 +46,7 @@ bool names_example(std::string_view world) {
 }
 
 Result<std::vector<Example>> examples() {
-    const fs::path prefix = installation();
+    const fs::path prefix = installation_prefix();
     const fs::path folder = prefix / "share" / "roboss" / "worlds";
     std::ifstream in(folder / "examples.json");
     const nlohmann::json list = nlohmann::json::parse(in, nullptr, false);

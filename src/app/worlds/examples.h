@@ -11,13 +11,17 @@
 
 namespace roboss {
 
+/// A control program of an example.
+struct ExampleProgram {
+    std::string name;               // "roboss_city_driver"
+    std::filesystem::path library;  // empty if it is not there
+};
+
 /// One entry of worlds/examples.json.
 struct Example {
     std::string name, summary;
     std::filesystem::path world, orders;  // absolute; `orders` is empty if there are none
-    std::vector<std::string> programs;    // names of control programs: "roboss_city_driver"
-    std::vector<std::filesystem::path>
-        clients;  // their libraries, in the same order; empty where one is missing
+    std::vector<ExampleProgram> programs;
 };
 
 /// True for "example:NAME".
