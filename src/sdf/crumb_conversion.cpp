@@ -150,7 +150,8 @@ class CrumbConverter {
         IncludeStore includes(local.paths, found);
         const auto placement = placement_of(model_of(plugin), includes, local);
         if (!placement) return std::nullopt;
-        ModelSpec model = convert_model(*read_model_tree(placement->model, includes, local.reader), false, local);
+        ModelSpec model =
+            convert_model(*read_model_tree(placement->model, includes, local.reader), false, local);
         if (model.links.empty()) return std::nullopt;
         CrumbSpec crumb;
         if (spec.disable_physics_time > 0) crumb.fixed_after = spec.disable_physics_time;

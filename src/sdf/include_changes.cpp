@@ -1,5 +1,5 @@
-// See include_changes.h. A change of a part of a model that the included file includes in turn is handed on to that
-// <include>.
+// See include_changes.h. A change of a part of a model that the included file includes in turn is handed on
+// to that <include>.
 #include "sdf/include_changes.h"
 
 #include <cstring>
@@ -42,6 +42,17 @@ pugi::xml_node counterpart(pugi::xml_node parent, pugi::xml_node change) {
     return parent.child(change.name());
 }
 
+/// The <include> of `copy` that stands for that one of the original.
+pugi::xml_node same_include(pugi::xml_node copy, pugi::xml_node original) {
+    const auto text = [](pugi::xml_node include, const char* child) {
+        return std::string(include.child(child).text().get());
+    };
+    for (const auto include : copy.children("include"))
+        if (text(include, "uri") == text(original, "uri") && text(include, "name") == text(original, "name"))
+            return include;
+    return {};
+}
+
 bool has_elements(pugi::xml_node node) {
     for (const auto child : node.children())
         if (child.type() == pugi::node_element) return true;
@@ -50,8 +61,9 @@ bool has_elements(pugi::xml_node node) {
 
 class Changer {
   public:
-    Changer(SdfText& out, const SourceFile& source, Diagnostics& diagnostics)
-        : out_(out), source_(source), diagnostics_(diagnostics) {}
+    Changer(SdfText& out, const Element& original, const SourceFile& source, const FindModel& find,
+            Diagnostics& diagnostics)
+        : out_(out), original_(original), source_(source), find_(find), diagnostics_(diagnostics) {}
 
     void apply(pugi::xml_node change, pugi::xml_node model) {
         const std::string id = change.attribute("element_id").value(), action = action_of(change);
@@ -68,10 +80,11 @@ class Changer {
     static std::string action_of(pugi::xml_node change) { return change.attribute("action").value(); }
 
     void wrong(pugi::xml_node change, const std::string& what) {
-        diagnostics_.error(source_.where(change), "include-params",
-                           "<" + std::string(change.name()) + "> in <experimental:params> " + what,
-                           "Write element_id=\"PART::INNER\" of an element that the included model has, and action "
-                           "add, modify, remove or replace.");
+        diagnostics_.error(
+            source_.where(change), "include-params",
+            "<" + std::string(change.name()) + "> in <experimental:params> " + what,
+            "Write element_id=\"PART::INNER\" of an element that the included model has, and action "
+            "add, modify, remove or replace.");
     }
 
     void act(const std::string& action, pugi::xml_node change, pugi::xml_node target) {
@@ -111,7 +124,8 @@ class Changer {
 
     void modify(pugi::xml_node change, pugi::xml_node target) {
         for (const auto attribute : change.attributes()) {
-            if (std::strcmp(attribute.name(), "element_id") == 0 || std::strcmp(attribute.name(), "action") == 0)
+            if (std::strcmp(attribute.name(), "element_id") == 0 ||
+                std::strcmp(attribute.name(), "action") == 0)
                 continue;
             target.remove_attribute(attribute.name());
             target.append_attribute(attribute.name()) = attribute.value();
@@ -156,10 +170,12 @@ class Changer {
 
     /// To the <include> of the model that has the part.
     void hand_on(pugi::xml_node change, pugi::xml_node model, const std::string& id) {
-        for (auto include : model.children("include")) {
-            const std::string name = include.child("name").text().get();
-            const auto rest = id == name ? std::string() : behind(id, name);
-            if (!rest || name.empty()) continue;
+        for (const auto node : original_.node.children("include")) {
+            const Element written{original_.source, node};
+            const std::string name = written.child("name") ? written.text("name") : find_(written).name();
+            const auto rest = id == name ? std::optional<std::string>("") : behind(id, name);
+            auto include = same_include(model, node);
+            if (!rest || name.empty() || !include) continue;
             auto params = include.child(kParams);
             if (!params) params = include.append_child(kParams);
             out_.copy(params, {&source_, change}).attribute("element_id") = rest->c_str();
@@ -169,7 +185,9 @@ class Changer {
     }
 
     SdfText& out_;
-    const SourceFile& source_;
+    const Element& original_;   // the model before the changes
+    const SourceFile& source_;  // of the changes
+    const FindModel& find_;
     Diagnostics& diagnostics_;
 };
 
@@ -182,13 +200,14 @@ std::string changes_in(const Element& include) {
     return text.str();
 }
 
-std::unique_ptr<SourceFile> changed_file(const Element& model, const Element& include, Diagnostics& diagnostics) {
+std::unique_ptr<SourceFile> changed_file(const Element& model, const Element& include, const FindModel& find,
+                                         Diagnostics& diagnostics) {
     SdfText out(*model.source);
     auto sdf = out.add({}, "sdf", model.source->root());
     for (const auto attribute : model.source->root().attributes()) sdf.append_copy(attribute);
     const auto copy = out.copy(sdf, model.node);
     const std::size_t first = diagnostics.items().size();
-    Changer changer(out, *include.source, diagnostics);
+    Changer changer(out, model, *include.source, find, diagnostics);
     for (const auto node : include.node.children()) {
         if (std::strcmp(node.name(), "plugin") == 0) out.copy(copy, {include.source, node});
         if (std::strcmp(node.name(), kParams) != 0) continue;

@@ -1,7 +1,8 @@
-// What an <include> changes in the model that it includes: plugins of its own, and <experimental:params>, which adds,
-// modifies, removes or replaces elements (sdformat.org, "SDFormat Parameter Passing").
+// What an <include> changes in the model that it includes: plugins of its own, and <experimental:params>,
+// which adds, modifies, removes or replaces elements (sdformat.org, "SDFormat Parameter Passing").
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <string>
 
@@ -13,8 +14,12 @@ namespace roboss::sdf_import {
 /// The changes as text; empty: none.
 std::string changes_in(const Element& include);
 
-/// The included model with the changes of the <include>, as a file of its own; each element keeps its place. nullptr
-/// with an error if a change is wrong.
-std::unique_ptr<SourceFile> changed_file(const Element& model, const Element& include, Diagnostics& diagnostics);
+/// The model that an <include> names.
+using FindModel = std::function<Element(const Element& include)>;
+
+/// The included model with the changes of the <include>, as a file of its own; each element keeps its place.
+/// nullptr with an error if a change is wrong.
+std::unique_ptr<SourceFile> changed_file(const Element& model, const Element& include, const FindModel& find,
+                                         Diagnostics& diagnostics);
 
 }  // namespace roboss::sdf_import

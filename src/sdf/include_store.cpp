@@ -90,7 +90,10 @@ Element IncludeStore::model_of(const Element& include) {
     const std::string changes = changes_in(include);
     if (changes.empty()) return first_model(*file);
     const auto [entry, is_new] = changed_.try_emplace({file->path(), changes});
-    if (is_new) entry->second = changed_file(first_model(*file), include, diagnostics_);
+    if (is_new)
+        entry->second = changed_file(
+            first_model(*file), include, [this](const Element& nested) { return model_of(nested); },
+            diagnostics_);
     return entry->second ? first_model(*entry->second) : Element{};
 }
 

@@ -17,8 +17,8 @@ class IncludeStore {
   public:
     IncludeStore(const ResourcePaths& paths, Diagnostics& diagnostics);
 
-    /// The model that an <include> names, with what the <include> changes in it; nothing (reported) if there is
-    /// none. URDF files are converted.
+    /// The model that an <include> names, with what the <include> changes in it; nothing (reported) if there
+    /// is none. URDF files are converted.
     Element model_of(const Element& include);
 
     /// The file of an <include> that holds lights and no model; nullptr: it holds something else.

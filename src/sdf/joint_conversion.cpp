@@ -41,9 +41,10 @@ std::optional<JointSpecKind> kind_of(const Element& source, const Import& import
     std::string known;
     for (const JointType& type : joint_types())
         if (!type.is_extension) known += (known.empty() ? "\"" : ", \"") + std::string(type.name) + "\"";
-    import.diagnostics().error(source.where(), "joint-type",
-                               "joint '" + source.name() + "' has the type '" + written + "', which is not known",
-                               "Known: " + known + ".");
+    import.diagnostics().error(
+        source.where(), "joint-type",
+        "joint '" + source.name() + "' has the type '" + written + "', which is not known",
+        "Known: " + known + ".");
     return std::nullopt;
 }
 

@@ -9,8 +9,8 @@
 
 namespace roboss::sdf_import {
 
-/// X_MJ: the joint's frame in the outermost model's. nullopt for a type that is not known (reported), and for a gearbox
-/// that couples nothing.
+/// X_MJ: the joint's frame in the outermost model's. nullopt for a type that is not known (reported), and for
+/// a gearbox that couples nothing.
 std::optional<JointSpec> convert_joint(const TreePart& joint, const ModelTree& model, const Pose& X_MJ,
                                        const std::string& scope, const Import& import);
 

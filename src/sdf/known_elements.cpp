@@ -29,16 +29,16 @@ constexpr SdfElement kSdfElements[] = {
     {"pose", "inertial", "", "rotation_format degrees"},
     {"pose", "", "", "relative_to rotation_format degrees frame"},
     {"link", "",
-     "gravity enable_wind self_collide kinematic must_be_base_link velocity_decay pose inertial collision visual "
+     "gravity enable_wind self_collide kinematic must_be_base_link velocity_decay pose inertial collision "
+     "visual "
      "sensor projector audio_sink audio_source battery light particle_emitter",
      "name"},
     {"inertial", "", "mass density auto_inertia_params pose inertia fluid_added_mass", "auto"},
     {"inertia", "", "ixx ixy ixz iyy iyz izz", ""},
-    {"fluid_added_mass", "",
-     "xx xy xz xp xq xr yy yz yp yq yr zz zp zq zr pp pq pr qq qr rr", ""},
+    {"fluid_added_mass", "", "xx xy xz xp xq xr yy yz yp yq yr zz zp zq zr pp pq pr qq qr rr", ""},
     {"collision", "", "laser_retro max_contacts density auto_inertia_params pose geometry surface", "name"},
-    {"geometry", "",
-     "empty box capsule cone cylinder ellipsoid heightmap image mesh plane polyline sphere", ""},
+    {"geometry", "", "empty box capsule cone cylinder ellipsoid heightmap image mesh plane polyline sphere",
+     ""},
     {"box", "", "size", ""},
     {"capsule", "", kRoundHolds, ""},
     {"cone", "", kRoundHolds, ""},
@@ -62,7 +62,8 @@ constexpr SdfElement kSdfElements[] = {
     {"ode", "friction", "mu mu2 fdir1 slip1 slip2", ""},
     {"bullet", "friction", "friction friction2 fdir1 rolling_friction", ""},
     {"contact", "",
-     "collide_without_contact collide_without_contact_bitmask collide_bitmask category_bitmask poissons_ratio "
+     "collide_without_contact collide_without_contact_bitmask collide_bitmask category_bitmask "
+     "poissons_ratio "
      "elastic_modulus ode bullet",
      ""},
     {"ode", "contact", "soft_cfm soft_erp kp kd max_vel min_depth", ""},
@@ -70,7 +71,8 @@ constexpr SdfElement kSdfElements[] = {
     {"soft_contact", "", "dart", ""},
     {"dart", "", "bone_attachment stiffness damping flesh_mass_fraction", ""},
     {"joint", "",
-     "parent child gearbox_ratio gearbox_reference_body thread_pitch screw_thread_pitch axis axis2 physics pose "
+     "parent child gearbox_ratio gearbox_reference_body thread_pitch screw_thread_pitch axis axis2 physics "
+     "pose "
      "sensor",
      "name type"},
     {"axis", "", kAxisHolds, ""},

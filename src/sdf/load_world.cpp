@@ -129,7 +129,7 @@ class WorldLoader {
 
     void read_distinct(Distinct& distinct, World& world) {
         const std::size_t first = diagnostics_.items().size();
-        if (auto spec = read_spec(distinct)) {
+        if (auto spec = read_spec(distinct, first)) {
             validate(*spec, diagnostics_);
             distinct.left_out = diagnostics_.leave_out_since(first);
             if (distinct.left_out) return;
@@ -140,11 +140,12 @@ class WorldLoader {
         }
     }
 
-    std::optional<ModelSpec> read_spec(Distinct& distinct) {
+    /// nullopt, and a finding behind the `first` ones, if there is nothing in it.
+    std::optional<ModelSpec> read_spec(Distinct& distinct, std::size_t first) {
         distinct.tree = read_model_tree(distinct.model, includes_, import_.reader);
         ModelSpec spec = convert_model(*distinct.tree, distinct.is_static, import_);
         if (!spec.links.empty()) return spec;
-        if (!distinct.tree->is_static) return std::nullopt;  // reported
+        if (diagnostics_.refuses_since(first)) return std::nullopt;
         diagnostics_.warning(spec.where, "no-links", "model '" + spec.name + "' has no links; it is left out",
                              "Give it a link, or remove it.");
         return std::nullopt;

@@ -238,7 +238,8 @@ class ModelConverter {
     }
 
     /// A <collision>, <visual>, <light> or sensor of a link.
-    void convert_part(const Element& part, const PoseInLink& pose_of, const std::string& scope, LinkSpec& spec) {
+    void convert_part(const Element& part, const PoseInLink& pose_of, const std::string& scope,
+                      LinkSpec& spec) {
         const char* tag = part.node.name();
         if (std::strcmp(tag, "collision") == 0) {
             report_repeated(part);
@@ -248,7 +249,8 @@ class ModelConverter {
             for (VisualSpec& visual : convert_visual(part, pose_of(part), import_))
                 spec.visuals.push_back(std::move(visual));
         } else if (std::strcmp(tag, "light") == 0) {
-            if (auto light = convert_light(part, pose_of(part), import_)) spec.lights.push_back(std::move(*light));
+            if (auto light = convert_light(part, pose_of(part), import_))
+                spec.lights.push_back(std::move(*light));
         } else if (std::strcmp(tag, "sensor") == 0 || std::strcmp(tag, "roboss:sensor") == 0 ||
                    std::strcmp(tag, "roboss:radio") == 0) {
             const Pose X_LS = pose_of(part);

@@ -1,4 +1,5 @@
-// Makes a ModelSpec of a model that is read. Nested models are flattened, their links and joints named "inner::link".
+// Makes a ModelSpec of a model that is read. Nested models are flattened, their links and joints named
+// "inner::link".
 #pragma once
 
 #include "sdf/conversion.h"

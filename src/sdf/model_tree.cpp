@@ -51,12 +51,11 @@ Pose ModelTree::pose_in(const TreePart& holder, const Element& posed, const Elem
     if (frame.empty()) return X_RP;
     if (const auto X_MR = pose_of(frame == kModelFrame ? holder.model_frame : frame))
         return inverse(holder.X_MP) * *X_MR * X_RP;
-    reader.diagnostics().warning(pose.where(), "unknown-frame",
-                                 "the <pose> of <" + std::string(posed.node.name()) + "> '" + posed.name() +
-                                     "' is relative to '" + frame +
-                                     "', which its model does not have; it is taken as relative to '" +
-                                     holder.name + "'",
-                                 "Name a link, joint, frame or nested model of the model, or NESTED::NAME.");
+    reader.diagnostics().warning(
+        pose.where(), "unknown-frame",
+        "the <pose> of <" + std::string(posed.node.name()) + "> '" + posed.name() + "' is relative to '" +
+            frame + "', which its model does not have; it is taken as relative to '" + holder.name + "'",
+        "Name a link, joint, frame or nested model of the model, or NESTED::NAME.");
     return X_RP;
 }
 

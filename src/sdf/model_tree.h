@@ -1,5 +1,6 @@
-// ModelTree: a model as its file means it. Nested models are found, included ones read, merged ones taken apart; names
-// are checked; every frame has its pose and the link that it moves with (sdformat.org, "Pose Frame Semantics").
+// ModelTree: a model as its file means it. Nested models are found, included ones read, merged ones taken
+// apart; names are checked; every frame has its pose and the link that it moves with (sdformat.org, "Pose
+// Frame Semantics").
 #pragma once
 
 #include <memory>
@@ -36,12 +37,13 @@ struct TreePart {
 struct ModelTree {
     Element source;
     bool is_static = false;
-    std::string canonical_link;                   // "nested::link" too; empty: there is none (reported)
-    std::vector<TreePart> parts;                  // by kind, then as in the file
-    std::vector<std::pair<Element, Pose>> merged;  // models whose parts stand here, with their frames' poses X_MN
+    std::string canonical_link;   // "nested::link" too; empty: there is none (reported)
+    std::vector<TreePart> parts;  // by kind, then as in the file
+    std::vector<std::pair<Element, Pose>>
+        merged;  // models whose parts stand here, with their frames' poses X_MN
 
-    /// The pose in the model frame of "link", "frame", "joint", "nested" or "nested::link" with all joints at zero;
-    /// nullopt: there is no such name.
+    /// The pose in the model frame of "link", "frame", "joint", "nested" or "nested::link" with all joints at
+    /// zero; nullopt: there is no such name.
     std::optional<Pose> pose_of(const std::string& name) const;
     /// The link, named from this model, that such a frame moves with.
     std::optional<std::string> body_of(const std::string& name) const;
@@ -61,6 +63,7 @@ struct ModelTree {
 };
 
 /// Reads a model without its own <pose>, which belongs to its place. What is wrong is reported.
-std::unique_ptr<ModelTree> read_model_tree(const Element& model, IncludeStore& includes, const ElementReader& reader);
+std::unique_ptr<ModelTree> read_model_tree(const Element& model, IncludeStore& includes,
+                                           const ElementReader& reader);
 
 }  // namespace roboss::sdf_import

@@ -1,5 +1,5 @@
-// Builds a ModelTree: collects the parts, names them, then follows `relative_to` and `attached_to` depth first, with a
-// mark on those on the way, so that a circle is found.
+// Builds a ModelTree: collects the parts, names them, then follows `relative_to` and `attached_to` depth
+// first, with a mark on those on the way, so that a circle is found.
 #include <algorithm>
 #include <cstring>
 #include <set>
@@ -66,7 +66,8 @@ class TreeReader {
         for (const auto node : model.node.children()) {
             const Element element{model.source, node};
             const char* tag = node.name();
-            if (std::strcmp(tag, "model") == 0) add_model(element, TreeReader(includes_, reader_, open_).read(element));
+            if (std::strcmp(tag, "model") == 0)
+                add_model(element, TreeReader(includes_, reader_, open_).read(element));
             if (std::strcmp(tag, "include") == 0) add_include(element);
             if (std::strcmp(tag, "link") == 0) add_link(element);
             if (std::strcmp(tag, "joint") == 0) add_joint(element);
@@ -116,9 +117,10 @@ class TreeReader {
         if (const auto X_NP = model.pose_of(placement))
             draft.X_RP = draft.X_RP * inverse(*X_NP);
         else
-            diagnostics().error(draft.part.source.where(), "unknown-frame",
-                                "the placement frame '" + placement + "' is not in model '" + draft.part.name + "'",
-                                "Name one of its links, joints or frames.");
+            diagnostics().error(
+                draft.part.source.where(), "unknown-frame",
+                "the placement frame '" + placement + "' is not in model '" + draft.part.name + "'",
+                "Name one of its links, joints or frames.");
     }
 
     void add_model(const Element& model, std::shared_ptr<const ModelTree> tree) {
@@ -131,7 +133,8 @@ class TreeReader {
         const Element model = includes_.model_of(include);
         if (!model) return;
         if (!open_.insert(model.source->path()).second) {
-            diagnostics().error(include.where(), "include-cycle", "'" + model.source->path() + "' includes itself",
+            diagnostics().error(include.where(), "include-cycle",
+                                "'" + model.source->path() + "' includes itself",
                                 "Remove one of the <include>s in the circle.");
             return;
         }
@@ -152,7 +155,8 @@ class TreeReader {
             draft.part.model = std::move(tree);
     }
 
-    /// The parts of the model become parts of this one, relative to a frame that stands for the merged model's.
+    /// The parts of the model become parts of this one, relative to a frame that stands for the merged
+    /// model's.
     void merge(const Element& include, const ModelTree& tree) {
         const std::string frame = "_merged__" + drafts_.back().part.name + "__model__";
         Draft& proxy = drafts_.back();
@@ -182,11 +186,12 @@ class TreeReader {
                 kinds_.push_back(part.kind);
                 named.push_back(std::move(draft));
             } else if (!part.name.empty()) {
-                diagnostics().error(part.source.where(), "duplicate-name",
-                                    std::string(tag_of(part.kind)) + " '" + part.name +
-                                        "' has the name of another link, joint, frame or nested model of model '" +
-                                        tree_->source.name() + "'",
-                                    "Give it a name of its own.");
+                diagnostics().error(
+                    part.source.where(), "duplicate-name",
+                    std::string(tag_of(part.kind)) + " '" + part.name +
+                        "' has the name of another link, joint, frame or nested model of model '" +
+                        tree_->source.name() + "'",
+                    "Give it a name of its own.");
             }
         }
         drafts_ = std::move(named);
@@ -198,15 +203,18 @@ class TreeReader {
             diagnostics().error(part.source.where(), code, std::string(tag_of(part.kind)) + what, remedy);
         };
         const std::string named = " '" + part.name + "'";
-        if (part.name.empty()) report("no-name", " of model '" + tree_->source.name() + "' has no name", "Give it one.");
+        if (part.name.empty())
+            report("no-name", " of model '" + tree_->source.name() + "' has no name", "Give it one.");
         if (is_reserved(part.name))
             report("reserved-name", named + ": SDFormat keeps this name for itself", "Choose another name.");
         if (part.name.find("::") != part.name.npos && version_of(*part.source.source) >= 108)
-            report("reserved-name", named + " has '::' in its name, which stands for nested models since SDFormat 1.8",
+            report("reserved-name",
+                   named + " has '::' in its name, which stands for nested models since SDFormat 1.8",
                    "Write a nested <model>, or another name.");
     }
 
-    /// Before SDFormat 1.7 a link, a joint and a frame could share a name: as in Gazebo, the later kind gets an ending.
+    /// Before SDFormat 1.7 a link, a joint and a frame could share a name: as in Gazebo, the later kind gets
+    /// an ending.
     bool rename_in_old_file(TreePart& part) {
         if (version_of(*part.source.source) >= 107 || part.kind == Kind::kModel) return false;
         const auto taken = tree_->by_name.find(part.name);
@@ -233,7 +241,8 @@ class TreeReader {
             if (part.kind == Kind::kJoint && part.parent != "world")
                 part.parent = tree_->body_of(part.parent).value_or(part.parent);
         for (const Merged& merged : merged_)
-            if (const auto X_MF = tree_->pose_of(merged.frame)) tree_->merged.emplace_back(merged.model, *X_MF * merged.X_FN);
+            if (const auto X_MF = tree_->pose_of(merged.frame))
+                tree_->merged.emplace_back(merged.model, *X_MF * merged.X_FN);
     }
 
     /// The one that is named, else the first.
@@ -242,7 +251,9 @@ class TreeReader {
         if (named.empty()) tree_->canonical_link = first_link();
         if (!named.empty() && link_named(named)) tree_->canonical_link = named;
         const Element& model = tree_->source;
-        if (!tree_->canonical_link.empty() || (tree_->is_static && named.empty())) return;
+        const bool nests =
+            std::ranges::any_of(tree_->parts, [](const TreePart& part) { return part.model != nullptr; });
+        if (!tree_->canonical_link.empty() || (named.empty() && (tree_->is_static || nests))) return;
         if (named.empty())
             diagnostics().error(model.where(), "no-links", "model '" + model.name() + "' has no links",
                                 "Give it a link, or remove it.");
@@ -276,10 +287,10 @@ class TreeReader {
     /// False, and an error, if the part depends on itself.
     bool enter(State& state, const TreePart& part) {
         if (state == State::kBusy)
-            diagnostics().error(part.source.where(), "frame-cycle",
-                                "the frame of " + std::string(tag_of(part.kind)) + " '" + part.name +
-                                    "' depends on itself",
-                                "Break the circle of relative_to, attached_to and joints.");
+            diagnostics().error(
+                part.source.where(), "frame-cycle",
+                "the frame of " + std::string(tag_of(part.kind)) + " '" + part.name + "' depends on itself",
+                "Break the circle of relative_to, attached_to and joints.");
         if (state != State::kOpen) return false;
         state = State::kBusy;
         return true;
@@ -289,7 +300,8 @@ class TreeReader {
         Draft& draft = drafts_[i];
         TreePart& part = tree_->parts[i];
         if (!enter(draft.pose, part)) return;
-        const bool of_child = draft.relative_to.empty();  // a joint's; validate() reports a child that is not there
+        const bool of_child =
+            draft.relative_to.empty();  // a joint's; validate() reports a child that is not there
         const std::string& frame = of_child ? draft.attached_to : draft.relative_to;
         const auto named = tree_->locate(frame);
         if (named) solve_pose(named->part);
@@ -308,17 +320,19 @@ class TreeReader {
         TreePart& part = tree_->parts[i];
         if (!enter(draft.body, part)) return;
         if (part.kind == Kind::kModel) {
-            if (!part.model->canonical_link.empty()) part.body = part.name + "::" + part.model->canonical_link;
+            if (!part.model->canonical_link.empty())
+                part.body = part.name + "::" + part.model->canonical_link;
         } else {
             if (const auto named = tree_->locate(draft.attached_to)) solve_body(named->part);
-            part.body = tree_->body_of(draft.attached_to).value_or(part.kind == Kind::kJoint ? draft.attached_to : "");
+            part.body = tree_->body_of(draft.attached_to)
+                            .value_or(part.kind == Kind::kJoint ? draft.attached_to : "");
         }
         draft.body = State::kDone;
         const bool reported = draft.relative_to == draft.attached_to;  // with its pose
-        if (part.kind != Kind::kFrame || !part.body.empty() || reported) return;
+        if (part.kind != Kind::kFrame || reported || tree_->pose_of(draft.attached_to)) return;
         diagnostics().error(part.source.where(), "unknown-frame",
-                            "frame '" + part.name + "' is attached to '" + draft.attached_to + "', which model '" +
-                                tree_->source.name() + "' does not have",
+                            "frame '" + part.name + "' is attached to '" + draft.attached_to +
+                                "', which model '" + tree_->source.name() + "' does not have",
                             "Name a link, joint, frame or nested model of the model, or NESTED::NAME.");
     }
 
@@ -339,7 +353,8 @@ class TreeReader {
 
 }  // namespace
 
-std::unique_ptr<ModelTree> read_model_tree(const Element& model, IncludeStore& includes, const ElementReader& reader) {
+std::unique_ptr<ModelTree> read_model_tree(const Element& model, IncludeStore& includes,
+                                           const ElementReader& reader) {
     report_elements(model, reader.diagnostics());
     if (is_reserved(model.name()))
         reader.diagnostics().error(model.where(), "reserved-name",

@@ -29,9 +29,9 @@ class SourceFile {
     /// Reads and parses a file; a malformed or missing one gives an error and nullptr.
     static std::unique_ptr<SourceFile> read(const std::string& path, Diagnostics& diagnostics);
 
-    /// Parses text that was made from `path` (an SDF from a URDF); `places[i]` is where line i + 1 of the text
-    /// comes from. Without `places` the text is that of `path`. Elements that are nested deeper than `deepest`
-    /// are an error.
+    /// Parses text that was made from `path` (an SDF from a URDF); `places[i]` is where line i + 1 of the
+    /// text comes from. Without `places` the text is that of `path`. Elements that are nested deeper than
+    /// `deepest` are an error.
     static std::unique_ptr<SourceFile> from_text(const std::string& path, std::string text,
                                                  std::vector<SourceLocation> places, Diagnostics& diagnostics,
                                                  int deepest = kDeepestWorld);

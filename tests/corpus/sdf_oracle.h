@@ -1,5 +1,5 @@
-// SdfOracle: what libsdformat makes of a file, beside our own reader. Only tests link libsdformat, and only where the
-// distribution has it.
+// SdfOracle: what libsdformat makes of a file, beside our own reader. Only tests link libsdformat, and only
+// where the distribution has it.
 #pragma once
 
 #include <string>
@@ -13,9 +13,9 @@ struct Verdict {
     std::size_t models = 0, links = 0, joints = 0;  // that were compared
 };
 
-/// Has libsdformat read a file with these resource folders, and compares links, joints, poses (1e-12), inertias and
-/// sensors with what load_world() reads. Not compared, as they differ by intent: a robot of URDF (here its fixed joints
-/// stay joints, and its massless links stay links); masses of models that stand still.
+/// Has libsdformat read a file with these resource folders, and compares links, joints, poses (1e-12),
+/// inertias and sensors with what load_world() reads. Not compared, as they differ by intent: a robot of URDF
+/// (here its fixed joints stay joints, and its massless links stay links); masses of models that stand still.
 Verdict ask_libsdformat(const std::string& file, const std::vector<std::string>& folders);
 
 }  // namespace roboss::corpus

@@ -1,7 +1,7 @@
-// Says what libsdformat makes of a file, with the resource folders given: the yardstick of tools/check_corpus.
-// Usage: sdf_oracle FILE [FOLDER...]
-// Prints "refused: " and libsdformat's first error; or "accepted", what was compared, and each difference from our own
-// reading. Exit codes: 0 the same, 1 refused, 2 wrong usage, 3 differences.
+// Says what libsdformat makes of a file, with the resource folders given: the yardstick of
+// tools/check_corpus. Usage: sdf_oracle FILE [FOLDER...] Prints "refused: " and libsdformat's first error; or
+// "accepted", what was compared, and each difference from our own reading. Exit codes: 0 the same, 1 refused,
+// 2 wrong usage, 3 differences.
 #include <iostream>
 
 #include "corpus/sdf_oracle.h"
