@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "sdf/test_files.h"
 
 namespace roboss {
@@ -96,6 +98,22 @@ TEST(ModelTree, AStaticModelMayHaveFramesAndNoLinks) {
                       link("a") + "</model>");
     EXPECT_FALSE(loaded.diagnostics.has_errors()) << loaded.text();
     EXPECT_NE(loaded.find("no-links"), nullptr);
+}
+
+TEST(ModelTree, TheFrameThatPlacesAMergedModelStandsAtThePose) {
+    const TestFolder folder;
+    folder.write("part.sdf", "<sdf version='1.9'><model name='part'>" +
+                                 link("p", "<pose>1 2 3 .4 .5 .6</pose>") +
+                                 link("q", "<pose>0 0 1 1 0 0</pose>") + "</model></sdf>");
+    folder.write("world.sdf",
+                 "<sdf version='1.9'><world name='w'><model name='m'>" + link("a") +
+                     "<include merge='true'><uri>part.sdf</uri><placement_frame>q</placement_frame>"
+                     "<pose relative_to='a'>3 0 0 0 1 0</pose></include></model></world></sdf>");
+    const Loaded loaded = folder.load("world.sdf");
+    ASSERT_TRUE(loaded.world && loaded.world->prototypes.size() == 1) << loaded.text();
+    const Pose& X_MQ = loaded.world->prototypes[0].links.at(2).X_ML;
+    EXPECT_NEAR(norm(X_MQ.p - Vec3{3, 0, 0}), 0, 1e-12);
+    EXPECT_NEAR(std::fabs(X_MQ.q.y), std::sin(0.5), 1e-12);
 }
 
 }  // namespace
