@@ -6,7 +6,6 @@ set(config_dir ${CMAKE_INSTALL_LIBDIR}/cmake/roboss)
 
 # The external libraries that a static layer hands on to whoever links it: pattern of the linked name, and how to find it.
 set(ROBOSS_EXTERNALS
-  "^sdformat12::|^sdformat12" "find_dependency(sdformat12)\nset(CMAKE_MODULE_PATH \${roboss_module_path})"
   "^pugixml" "find_dependency(pugixml)"
   "^assimp" "find_dependency(assimp)"
   "^PNG::" "find_dependency(PNG)"

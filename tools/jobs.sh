@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Prints how many compilers to run at a time: one a core, but no more than the free memory holds (a file that includes
-# libsdformat takes up to 1.5 GB). ROBOSS_JOBS overrides.
+# Prints how many compilers to run at a time: one a core, but no more than the free memory holds (several files
+# compiled as one take up to 1.5 GB). ROBOSS_JOBS overrides.
 set -euo pipefail
 cores=$(nproc)
 free_kib=$(awk '/^MemAvailable:/ {print $2}' /proc/meminfo)

@@ -1,4 +1,4 @@
-// The parts of a model's conversion: elements of the source to the World's plain data. No libsdformat here.
+// The parts of a model's conversion: elements of the source to the World's plain data.
 #pragma once
 
 #include <functional>

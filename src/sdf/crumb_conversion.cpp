@@ -5,11 +5,10 @@
 #include <cstring>
 #include <set>
 
-#include "sdf/libsdformat_reader.h"
 #include "sdf/model_conversion.h"
+#include "sdf/model_tree.h"
 #include "sdf/placements.h"
 #include "sdf/plugin_conversion.h"
-#include "sdf/skeleton.h"
 
 namespace roboss::sdf_import {
 namespace {
@@ -149,12 +148,10 @@ class CrumbConverter {
     std::optional<ModelSpec> model_in(const Element& plugin, const BreadcrumbsSpec& spec, const Import& local,
                                       Diagnostics& found) {
         IncludeStore includes(local.paths, found);
-        LibsdformatReader libsdformat(includes, found);
         const auto placement = placement_of(model_of(plugin), includes, local);
         if (!placement) return std::nullopt;
-        const auto read = libsdformat.read(make_skeleton(placement->model, TopPose::kLeftOut, includes));
-        if (!read) return std::nullopt;
-        ModelSpec model = convert_model(*read, false, local);
+        ModelSpec model =
+            convert_model(*read_model_tree(placement->model, includes, local.reader), false, local);
         if (model.links.empty()) return std::nullopt;
         CrumbSpec crumb;
         if (spec.disable_physics_time > 0) crumb.fixed_after = spec.disable_physics_time;

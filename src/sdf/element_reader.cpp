@@ -8,8 +8,8 @@
 #include <span>
 
 namespace roboss::sdf_import {
-/// libsdformat takes the number at the start of a word and leaves the rest: a quotation mark, a unit, a
-/// second point
+/// Gazebo takes the number at the start of a word and leaves the rest: a quotation mark, a unit, a second
+/// point
 /// ("2.286.0"). A comma is no rest: it may stand for a point.
 std::optional<double> number_at_start(std::string_view text) {
     while (!text.empty() && !std::isdigit(static_cast<unsigned char>(text.back())) && text.back() != '.')
@@ -29,7 +29,7 @@ std::string with_decimal_point(std::string_view word) {
 
 namespace {
 
-/// "0x0f": libsdformat takes whole numbers so.
+/// "0x0f": Gazebo takes whole numbers so.
 std::optional<double> hexadecimal(std::string_view text) {
     if (!text.starts_with("0x") && !text.starts_with("0X")) return std::nullopt;
     std::uint32_t value = 0;
@@ -77,13 +77,13 @@ bool ElementReader::numbers(const Element& element, std::span<double> values, Fi
     const auto words = words_of(element.node.text().get());
     const std::string expected =
         values.size() == 1 ? "a finite number" : std::to_string(values.size()) + " finite numbers";
-    if (words.empty()) {  // as libsdformat; its conversion of URDF writes such elements
+    if (words.empty()) {  // as Gazebo; its conversion of URDF writes such elements
         diagnostics_.warning(element.where(), "empty-value",
                              "<" + std::string(element.node.name()) + "> is empty; its default is used",
                              "Write " + expected + ", or leave it out.");
         return false;
     }
-    const bool has_more = values.size() == 1 && words.size() > 1;  // libsdformat takes the first
+    const bool has_more = values.size() == 1 && words.size() > 1;  // Gazebo takes the first
     if (words.size() != values.size() && !has_more) return bad_value(element, expected), false;
     std::vector<double> parsed;
     for (const auto word : std::span(words).first(values.size())) {
@@ -175,7 +175,8 @@ Pose ElementReader::pose(const Element& pose_element) const {
 std::string relative_to(const Element& pose_element) {
     if (!pose_element) return {};
     const std::string now = pose_element.node.attribute("relative_to").value();
-    return now.empty() ? pose_element.node.attribute("frame").value() : now;
+    if (!now.empty() || version_of(*pose_element.source) >= 107) return now;
+    return pose_element.node.attribute("frame").value();
 }
 
 }  // namespace roboss::sdf_import

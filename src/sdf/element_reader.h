@@ -58,7 +58,7 @@ class ElementReader {
     Diagnostics& diagnostics_;
 };
 
-/// What `relative_to` (or `frame`, its name up to SDFormat 1.6) of a <pose> says; empty: nothing.
+/// The frame that a <pose> names by `relative_to` (`frame` up to SDFormat 1.6); empty: none.
 std::string relative_to(const Element& pose_element);
 
 }  // namespace roboss::sdf_import

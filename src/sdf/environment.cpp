@@ -23,7 +23,7 @@ constexpr const char* kFiles = "environment-preload-system|environmental-sensor-
 constexpr std::size_t kPointsMax = 1 << 22;  // of a grid: 32 MiB a column
 
 /// Class and file of a kept plugin.
-PluginName name_of(const ExtensionElement& record, pugi::xml_document& document) {
+PluginName plugin_in(const ExtensionElement& record, pugi::xml_document& document) {
     document.load_string(record.text.c_str());
     return plugin_name({nullptr, document.document_element()});
 }
@@ -159,7 +159,7 @@ class EnvironmentReader {
     void read() {
         for (ExtensionElement& record : world_.extensions) {
             pugi::xml_document document;
-            const PluginName name = name_of(record, document);
+            const PluginName name = plugin_in(record, document);
             if (!is_environment_plugin(name)) continue;
             const bool loads =
                 name.class_name == "EnvironmentPreload" || name.file == "environment-preload-system";

@@ -80,7 +80,7 @@ void convert_extensions(const Element& parent, const std::string& scope, const I
             for (PluginSensor& sensor :
                  convert_plugin_sensors(element, scope, model.onboard, model.onboard.size() > before, import))
                 sensors.push_back(std::move(sensor));
-        } else if (std::strcmp(node.name(), "model") == 0) {
+        } else if (std::strcmp(node.name(), "model") == 0 || std::strcmp(node.name(), "include") == 0) {
             continue;  // nested models and includes take their own turn
         } else if (std::strchr(node.name(), ':') != nullptr) {
             convert_extension(element, scope, import, model);

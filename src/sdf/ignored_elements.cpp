@@ -8,7 +8,7 @@
 namespace roboss::sdf_import {
 namespace {
 
-struct IgnoredElement {
+struct ElementWithoutEffect {
     const char* parent;
     const char* name;
     const char* except;  // type of joint that does read it
@@ -19,7 +19,7 @@ struct IgnoredElement {
 
 constexpr Severity kNote = Severity::kNote, kWarning = Severity::kWarning;
 
-constexpr IgnoredElement kIgnored[] = {
+constexpr ElementWithoutEffect kIgnored[] = {
     {"link", "velocity_decay", "", kWarning, "bodies lose speed by the air and at joints only",
      "Write <roboss:drag><linear> for a force against the velocity, or <damping> at the joints."},
     {"link", "must_be_base_link", "", kNote, "the tree of joints shows which link is the base", ""},
@@ -38,6 +38,10 @@ constexpr IgnoredElement kIgnored[] = {
      "Write <metal>."},
     {"specular", "glossiness_map", "", kNote, "only colour and normals of <specular> are drawn",
      "Write <metal>."},
+    {"inertial", "auto_inertia_params", "", kWarning, "parameters of a mesh's automatic inertia are not read",
+     "Write the link's <mass> and <inertia>."},
+    {"collision", "auto_inertia_params", "", kWarning,
+     "parameters of a mesh's automatic inertia are not read", "Write the link's <mass> and <inertia>."},
     {"model", "gripper", "", kWarning, "what a hand holds, it holds by friction; nothing is attached to it",
      "Close the fingers with an effort order, and give them friction."},
     {"joint", "thread_pitch", "screw", kNote, "only a screw joint has a thread", "Write type=\"screw\"."},
@@ -60,7 +64,7 @@ bool says_zero(const pugi::xml_node& node) {
     return node.attributes_begin() == node.attributes_end();
 }
 
-bool matches(const IgnoredElement& ignored, const pugi::xml_node& node) {
+bool matches(const ElementWithoutEffect& ignored, const pugi::xml_node& node) {
     const pugi::xml_node parent = node.parent();
     return std::strcmp(node.name(), ignored.name) == 0 && std::strcmp(parent.name(), ignored.parent) == 0 &&
            (*ignored.except == '\0' || std::strcmp(parent.attribute("type").value(), ignored.except) != 0);
@@ -72,7 +76,7 @@ void report_ignored_elements(const Element& model, Diagnostics& diagnostics) {
     for (const auto node : model.node.children()) {
         if (node.type() != pugi::node_element || std::strcmp(node.name(), "plugin") == 0) continue;
         const Element element{model.source, node};
-        for (const IgnoredElement& ignored : kIgnored) {
+        for (const ElementWithoutEffect& ignored : kIgnored) {
             if (!matches(ignored, node) || says_zero(node)) continue;
             const std::string message = "<" + std::string(ignored.name) + "> has no effect: " + ignored.why;
             if (ignored.severity == kWarning)

@@ -1,12 +1,7 @@
 // Finds, reads and caches included files.
 #include "sdf/include_store.h"
 
-#include <algorithm>
-#include <cstdlib>
-#include <filesystem>
-#include <fstream>
-
-#include "sdf/newer_versions.h"
+#include "sdf/include_changes.h"
 #include "sdf/urdf.h"
 
 namespace roboss::sdf_import {
@@ -33,11 +28,6 @@ void report_no_model(const SourceFile& file, Diagnostics& diagnostics) {
 
 IncludeStore::IncludeStore(const ResourcePaths& paths, Diagnostics& diagnostics)
     : paths_(paths), diagnostics_(diagnostics) {}
-
-IncludeStore::~IncludeStore() {
-    std::error_code ignored;
-    if (!folder_.empty()) std::filesystem::remove_all(folder_, ignored);
-}
 
 void IncludeStore::report_not_found(const Element& include, const Resolved& tried) {
     const std::string uri = include.text("uri");
@@ -96,52 +86,20 @@ const SourceFile* IncludeStore::file_of(const Element& include) {
 
 Element IncludeStore::model_of(const Element& include) {
     const SourceFile* file = file_of(include);
-    return file ? first_model(*file) : Element{};
+    if (file == nullptr) return {};
+    const std::string changes = changes_in(include);
+    if (changes.empty()) return first_model(*file);
+    const auto [entry, is_new] = changed_.try_emplace({file->path(), changes});
+    if (is_new)
+        entry->second = changed_file(
+            first_model(*file), include, [this](const Element& nested) { return model_of(nested); },
+            diagnostics_);
+    return entry->second ? first_model(*entry->second) : Element{};
 }
 
 const SourceFile* IncludeStore::lights_of(const Element& include) {
     const auto known = lights_.find(find(include).path().value_or(""));
     return known == lights_.end() ? nullptr : known->second.get();
-}
-
-std::optional<std::string> IncludeStore::folder() {
-    if (!folder_.empty()) return folder_;
-    std::error_code ignored;
-    std::string pattern = (std::filesystem::temp_directory_path(ignored) / "roboss-sdf-XXXXXX").string();
-    if (mkdtemp(pattern.data()) == nullptr) return std::nullopt;
-    return folder_ = pattern;
-}
-
-std::optional<std::string> IncludeStore::skeleton_file(const Element& include) {
-    const Element model = model_of(include);
-    if (!model) return std::nullopt;
-    const std::string& source = model.source->path();
-    if (std::find(open_.begin(), open_.end(), source) != open_.end()) {
-        diagnostics_.error(include.where(), "include-cycle", "'" + source + "' includes itself",
-                           "Remove one of the <include>s in the circle.");
-        return std::nullopt;
-    }
-    if (const auto known = written_.find(source); known != written_.end()) return known->second;
-    const auto in = folder();
-    if (!in) {
-        diagnostics_.error(include.where(), "no-temporary-folder",
-                           "no temporary folder can be made for included models",
-                           "Check that the folder in TMPDIR (else /tmp) can be written.");
-        return std::nullopt;
-    }
-    open_.push_back(source);
-    Skeleton skeleton = make_skeleton(model, TopPose::kKept, *this);
-    open_.pop_back();
-    const std::string file = *in + "/" + std::to_string(written_.size()) + ".sdf";
-    std::ofstream(file) << skeleton.text();
-    written_.emplace(source, file);
-    skeletons_.emplace(file, std::move(skeleton));
-    return file;
-}
-
-const Skeleton* IncludeStore::skeleton_of(const std::string& written_file) const {
-    const auto found = skeletons_.find(written_file);
-    return found == skeletons_.end() ? nullptr : &found->second;
 }
 
 }  // namespace roboss::sdf_import

@@ -1,11 +1,10 @@
-// Joints: type, links and frames from libsdformat, numbers of the axes and <roboss:motor> from the source.
+// See joint_conversion.h.
 #include "sdf/joint_conversion.h"
 
 #include <algorithm>
 #include <cctype>
 #include <cmath>
 #include <limits>
-#include <sdf/JointAxis.hh>
 
 #include "sdf/known_children.h"
 #include "world/joint_type.h"
@@ -15,7 +14,7 @@ namespace {
 
 /// A type that SDFormat lacks: <roboss:joint type="...">, within a joint of some other type for other
 /// programs.
-std::optional<JointSpecKind> kind_of(const Element& extension, const Import& import) {
+std::optional<JointSpecKind> kind_of_extension(const Element& extension, const Import& import) {
     const std::string name = extension.node.attribute("type").value();
     const auto kind = find_joint_type(name);
     if (kind && joint_type(*kind).is_extension) return kind;
@@ -28,14 +27,25 @@ std::optional<JointSpecKind> kind_of(const Element& extension, const Import& imp
     return std::nullopt;
 }
 
-/// libsdformat takes upper and lower case for the same.
-std::optional<JointSpecKind> kind_of(const sdf::Joint& joint, const Element& source, const Import& import) {
-    if (joint.Type() == sdf::JointType::INVALID) return std::nullopt;  // libsdformat has said so
-    if (const Element extension = source.child("roboss:joint")) return kind_of(extension, import);
-    std::string name = source.node.attribute("type").value();
+/// Upper and lower case are the same, as in Gazebo.
+std::optional<JointSpecKind> kind_of(const Element& source, const Import& import) {
+    const std::string written = source.node.attribute("type").value();
+    std::string name = written;
     std::transform(name.begin(), name.end(), name.begin(),
                    [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    return find_joint_type(name);
+    const auto kind = find_joint_type(name);
+    if (kind && !joint_type(*kind).is_extension) {
+        const Element extension = source.child("roboss:joint");
+        return extension ? kind_of_extension(extension, import) : kind;
+    }
+    std::string known;
+    for (const JointType& type : joint_types())
+        if (!type.is_extension) known += (known.empty() ? "\"" : ", \"") + std::string(type.name) + "\"";
+    import.diagnostics().error(
+        source.where(), "joint-type",
+        "joint '" + source.name() + "' has the type '" + written + "', which is not known",
+        "Known: " + known + ".");
+    return std::nullopt;
 }
 
 constexpr const char* kAxisChildren[] = {"limit", "dynamics", "initial_position", "mimic", "roboss:motor"};
@@ -85,11 +95,11 @@ void report_softness(const Element& limit, const AxisSpec& spec, const Import& i
 }
 
 /// A continuous joint turns without end.
-void drop_limits(const sdf::Joint& joint, const Element& limit, AxisSpec& spec, const Import& import) {
+void drop_limits(const TreePart& joint, const Element& limit, AxisSpec& spec, const Import& import) {
     if (spec.has_limits() || has_stiffness(spec) || has_dissipation(spec))
         import.diagnostics().warning(
             limit.where(), "unused-limit",
-            "joint '" + joint.Name() +
+            "joint '" + joint.name +
                 "' is continuous and has no limits: <lower>, <upper>, <stiffness> and <dissipation> of its "
                 "<limit> are ignored",
             "Write type=\"revolute\", or leave them out.");
@@ -136,26 +146,18 @@ std::optional<MimicSpec> read_mimic(const Element& mimic, const std::string& sco
     return spec;
 }
 
-Vec3 direction_of(const sdf::JointAxis* axis) {
-    ignition::math::Vector3d xyz = ignition::math::Vector3d::UnitZ;
-    if (axis == nullptr || !axis->ResolveXyz(xyz).empty()) return {0, 0, 1};
-    const Vec3 direction{xyz.X(), xyz.Y(), xyz.Z()};
-    const double length = norm(direction);
-    return length > 1e-12 && std::isfinite(length) ? direction / length : Vec3{0, 0, 1};
-}
-
 bool is_locked(const AxisSpec& spec) {
     return spec.has_limits() && !(spec.lower < spec.upper);
 }
 
 /// An axis without direction. Gazebo minds it only where the joint could move along it.
-void check_direction(const sdf::Joint& joint, const Element& axis, bool moves, const Import& import) {
+void check_direction(const TreePart& joint, const Element& axis, bool moves, const Import& import) {
     const Element xyz = axis.child("xyz");
     const auto words = words_of(std::string_view(xyz.node.text().get()));
     if (words.size() != 3 ||
         std::ranges::any_of(words, [](std::string_view word) { return parse_number(word) != 0.0; }))
         return;
-    const std::string what = "the axis of joint '" + joint.Name() + "' is 0 0 0";
+    const std::string what = "the axis of joint '" + joint.name + "' is 0 0 0";
     if (moves)
         import.diagnostics().error(xyz.where(), "zero-axis", what + ": it has no direction to move in",
                                    "Write a direction, for instance 0 0 1, or type=\"fixed\".");
@@ -184,21 +186,21 @@ void direct_axes(const JointType& type, JointSpec& spec) {
     }
 }
 
-AxisSpec read_axis(const sdf::Joint& joint, const Element& source, const std::string& name,
+AxisSpec read_axis(const TreePart& joint, const ModelTree& model, const std::string& name,
                    const JointType& type, const std::string& scope, const Import& import) {
+    const Element& source = joint.source;
     const bool of_extension = !is_sdf_axis(name);
     const Element axis = (of_extension ? source.child("roboss:joint") : source).child(name.c_str());
     AxisSpec spec;
-    spec.xyz = direction_of(joint.Axis(name == "axis2" ? 1 : 0));
     if (of_extension) {
         if (axis) report_unknown_children(axis, kAxisChildren, import.diagnostics());
     } else if (!axis) {
         import.diagnostics().warning(
             source.where(), "missing-axis",
-            "joint '" + joint.Name() + "' has no <" + name + ">; z of its frame is used",
+            "joint '" + joint.name + "' has no <" + name + ">; z of its frame is used",
             "Add it, with <xyz>.");
     } else {
-        import.reader.vector(axis, "xyz", {0, 0, 1});
+        spec.xyz = model.direction_of(joint, axis, import.reader);
     }
     read_limit(axis.child("limit"), import.reader, spec);
     read_dynamics(axis.child("dynamics"), import.reader, spec);
@@ -244,7 +246,8 @@ void report_unused_axis(JointSpec& spec, const Element& source, const char* name
                                  "Use a joint with that axis, or several hinges in a row.");
 }
 
-void report_unused(const sdf::Joint& joint, JointSpec& spec, const Element& source, const Import& import) {
+void report_unused(const TreePart& joint, JointSpec& spec, const Import& import) {
+    const Element& source = joint.source;
     const JointType& type = joint_type(spec.kind);
     for (const char* name : {"axis", "axis2"}) {
         if (type.find_axis(name)) continue;
@@ -293,39 +296,33 @@ bool read_gearbox(const Element& source, const std::string& scope, const Import&
     return !reference.empty();
 }
 
-/// The link that libsdformat found for a parent or child frame, else the name as written, for validate() to
-/// report.
-template <class Resolve>
-std::string link_name(const std::string& written, const std::string& scope, Resolve resolve) {
-    std::string found;
-    if (!resolve(found).empty() || found.empty()) found = written;
-    return found == "world" ? found : scope + found;
+std::string in_scope(const std::string& link, const std::string& scope) {
+    return link == "world" ? link : scope + link;
 }
 
 }  // namespace
 
-std::optional<JointSpec> convert_joint(const sdf::Joint& joint, const Element& source, const Pose& X_MJ,
+std::optional<JointSpec> convert_joint(const TreePart& joint, const ModelTree& model, const Pose& X_MJ,
                                        const std::string& scope, const Import& import) {
-    const auto kind = kind_of(joint, source, import);
+    const Element& source = joint.source;
+    const auto kind = kind_of(source, import);
     if (!kind) return std::nullopt;
     const JointType& type = joint_type(*kind);
     JointSpec spec;
     const bool renamed = static_cast<bool>(source.node.attribute(kJointName));
-    spec.name = scope + (renamed ? name_of_joint(source.node) : joint.Name());
+    spec.name = scope + (renamed ? name_of_joint(source.node) : joint.name);
     spec.kind = *kind;
     spec.where = source.where();
     spec.X_MJ = X_MJ;
-    spec.parent = link_name(joint.ParentLinkName(), scope,
-                            [&](std::string& name) { return joint.ResolveParentLink(name); });
-    spec.child = link_name(joint.ChildLinkName(), scope,
-                           [&](std::string& name) { return joint.ResolveChildLink(name); });
+    spec.parent = in_scope(joint.parent, scope);
+    spec.child = in_scope(joint.body, scope);
     for (const std::string_view axis : type.axes)
-        spec.axes.push_back(read_axis(joint, source, std::string(axis), type, scope, import));
+        spec.axes.push_back(read_axis(joint, model, std::string(axis), type, scope, import));
     direct_axes(type, spec);
     if (type.count(JointKind::kRevolute) == 2) turn_parallel_axis(spec, import);
     if (type.count(JointKind::kScrew) > 0) spec.screw_pitch = screw_pitch(source, import);
     if (type.couples && !read_gearbox(source, scope, import, spec)) return std::nullopt;
-    report_unused(joint, spec, source, import);
+    report_unused(joint, spec, import);
     return spec;
 }
 

@@ -1,4 +1,4 @@
-// The straight path of loading: file, placements, distinct models through libsdformat, poses, validation.
+// The straight path of loading: file, placements, distinct models, poses, validation.
 #include "sdf/load_world.h"
 
 #include <map>
@@ -12,10 +12,9 @@
 #include "sdf/environment.h"
 #include "sdf/event_conversion.h"
 #include "sdf/include_store.h"
-#include "sdf/libsdformat_reader.h"
 #include "sdf/look_conversion.h"
 #include "sdf/model_conversion.h"
-#include "sdf/newer_versions.h"
+#include "sdf/model_tree.h"
 #include "sdf/placements.h"
 #include "sdf/same_model.h"
 #include "sdf/saved_state.h"
@@ -35,7 +34,7 @@ using namespace sdf_import;
 struct Distinct {
     Element model;
     bool is_static = false;
-    std::unique_ptr<ReadModel> read;       // nullptr: libsdformat refused it
+    std::unique_ptr<ModelTree> tree;
     std::optional<std::size_t> prototype;  // in World::prototypes
     bool left_out = false;                 // it has errors
 };
@@ -47,7 +46,6 @@ class WorldLoader {
           visuals_(paths_, options.looks),
           import_{paths_, ElementReader(diagnostics), files_, visuals_, 0.001, -1},
           includes_(paths_, diagnostics),
-          libsdformat_(includes_, diagnostics),
           diagnostics_(diagnostics),
           profile_(options.profile) {}
 
@@ -131,7 +129,7 @@ class WorldLoader {
 
     void read_distinct(Distinct& distinct, World& world) {
         const std::size_t first = diagnostics_.items().size();
-        if (auto spec = read_spec(distinct)) {
+        if (auto spec = read_spec(distinct, first)) {
             validate(*spec, diagnostics_);
             distinct.left_out = diagnostics_.leave_out_since(first);
             if (distinct.left_out) return;
@@ -142,11 +140,12 @@ class WorldLoader {
         }
     }
 
-    std::optional<ModelSpec> read_spec(Distinct& distinct) {
-        distinct.read = libsdformat_.read(make_skeleton(distinct.model, TopPose::kLeftOut, includes_));
-        if (!distinct.read) return std::nullopt;
-        ModelSpec spec = convert_model(*distinct.read, distinct.is_static, import_);
+    /// nullopt, and a finding behind the `first` ones, if there is nothing in it.
+    std::optional<ModelSpec> read_spec(Distinct& distinct, std::size_t first) {
+        distinct.tree = read_model_tree(distinct.model, includes_, import_.reader);
+        ModelSpec spec = convert_model(*distinct.tree, distinct.is_static, import_);
         if (!spec.links.empty()) return spec;
+        if (diagnostics_.refuses_since(first)) return std::nullopt;
         diagnostics_.warning(spec.where, "no-links", "model '" + spec.name + "' has no links; it is left out",
                              "Give it a link, or remove it.");
         return std::nullopt;
@@ -162,8 +161,7 @@ class WorldLoader {
     void place(const Element& world, const std::vector<Placement>& placements, SavedState& state,
                World& result) {
         const auto in_model = [&](std::size_t i, const std::string& name) -> std::optional<Pose> {
-            const auto& read = distinct_[distinct_of_[i]].read;
-            return read ? pose_in_model(*read, name) : std::nullopt;
+            return distinct_[distinct_of_[i]].tree->pose_of(name);
         };
         WorldFrames frames(world, placements, in_model, import_);
         InstanceCheck check;
@@ -198,7 +196,6 @@ class WorldLoader {
     LookFiles visuals_;
     Import import_;
     IncludeStore includes_;
-    LibsdformatReader libsdformat_;
     Diagnostics& diagnostics_;
     std::string profile_;
     std::unique_ptr<SourceFile> file_;

@@ -1,6 +1,5 @@
 // load_world: an SDFormat, URDF or MJCF file to a World, with every finding in `diagnostics`. Large worlds
-// load fast: pugixml reads the file, models that are equal but for name and pose are found, and libsdformat
-// reads each distinct one once.
+// load fast: models that are equal but for name and pose are found, and each distinct one is read once.
 #pragma once
 
 #include <optional>

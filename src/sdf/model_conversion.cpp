@@ -7,60 +7,47 @@
 #include <map>
 #include <optional>
 #include <set>
+#include <utility>
 
-#include "sdf/ignored_elements.h"
 #include "sdf/joint_conversion.h"
-#include "sdf/libsdformat_reader.h"
 #include "sdf/look_conversion.h"
-#include "sdf/newer_versions.h"
+#include "sdf/model_tree.h"
 #include "sdf/plugin_sensors.h"
 
 namespace roboss::sdf_import {
 namespace {
 
+using Kind = TreePart::Kind;
+
 /// A model or nested model on the way: where it is in the outermost model.
 struct Scope {
-    const sdf::Model& model;
+    const ModelTree& model;
     std::string prefix;  // "" or "inner::"
     Pose X_MS;           // this model's frame in the outermost model's
     bool wind = false;   // <enable_wind> of the model: for links that do not say otherwise
 };
 
-Pose to_pose(const ignition::math::Pose3d& pose) {
-    return {{pose.Pos().X(), pose.Pos().Y(), pose.Pos().Z()},
-            {pose.Rot().W(), pose.Rot().X(), pose.Rot().Y(), pose.Rot().Z()}};
-}
-
-template <class Posed>
-Pose resolved(const Posed& posed, const std::string& in) {
-    ignition::math::Pose3d pose;
-    // Errors of the frame graph were reported when libsdformat built it.
-    if (!posed.SemanticPose().Resolve(pose, in).empty()) return {};
-    return to_pose(pose);
-}
-
 class ModelConverter {
   public:
-    ModelConverter(const ReadModel& read, const Import& import, ModelSpec& spec)
-        : read_(read), import_(import), spec_(spec) {}
+    ModelConverter(const Import& import, ModelSpec& spec) : import_(import), spec_(spec) {}
 
     void convert(const Scope& scope) {
-        const Element source = read_.source_of(scope.model.Element());
-        std::vector<PluginSensor> sensors;
-        if (source) convert_extensions(source, scope.prefix, import_, spec_, sensors);
-        for (std::uint64_t i = 0; i < scope.model.LinkCount(); ++i)
-            convert_link(*scope.model.LinkByIndex(i), scope);
-        for (std::uint64_t i = 0; i < scope.model.JointCount(); ++i)
-            convert_joint_of(*scope.model.JointByIndex(i), scope);
-        for (std::uint64_t i = 0; i < scope.model.ModelCount(); ++i)
-            convert_nested(*scope.model.ModelByIndex(i), scope);
-        for (std::uint64_t i = 0; i < scope.model.FrameCount(); ++i)
-            convert_frame(*scope.model.FrameByIndex(i), scope);
+        std::vector<std::pair<Element, Pose>> sources{{scope.model.source, {}}};
+        sources.insert(sources.end(), scope.model.merged.begin(), scope.model.merged.end());
+        std::vector<std::pair<PluginSensor, Pose>> sensors;
+        for (const auto& [source, X_SN] : sources) {
+            std::vector<PluginSensor> found;
+            convert_extensions(source, scope.prefix, import_, spec_, found);
+            for (PluginSensor& sensor : found) sensors.emplace_back(std::move(sensor), scope.X_MS * X_SN);
+        }
+        for (const auto kind : {Kind::kLink, Kind::kJoint, Kind::kModel, Kind::kFrame})
+            for (const TreePart& part : scope.model.parts)
+                if (part.kind == kind) convert_part_of_model(part, scope);
         if (scope.prefix.empty()) find_joints_of_sensors();
-        const std::string canonical = scope.prefix + scope.model.CanonicalLinkAndRelativeName().second;
-        for (PluginSensor& sensor : sensors)
-            attach_plugin_sensor(std::move(sensor), canonical, scope.X_MS, import_, spec_);
-        if (source) label_visuals(source, scope.prefix);
+        const std::string canonical = scope.prefix + scope.model.canonical_link;
+        for (auto& [sensor, X_MN] : sensors)
+            attach_plugin_sensor(std::move(sensor), canonical, X_MN, import_, spec_);
+        for (const auto& [source, X_SN] : sources) label_visuals(source, scope.prefix);
     }
 
     /// A Label plugin of a model labels the visuals that have no label of their own; a nested model's comes
@@ -151,23 +138,33 @@ class ModelConverter {
         spec_.joints.push_back(std::move(weld));
     }
 
-    void convert_frame(const sdf::Frame& frame, const Scope& scope) {
-        std::string body;
-        if (!frame.ResolveAttachedToBody(body).empty()) return;
-        const auto link = std::ranges::find(spec_.links, scope.prefix + body, &LinkSpec::name);
-        if (link == spec_.links.end()) return;
-        const Pose X_MF = scope.X_MS * resolved(frame, "__model__");
-        spec_.frames.push_back({scope.prefix + frame.Name(), link->name, inverse(link->X_ML) * X_MF});
+    void convert_part_of_model(const TreePart& part, const Scope& scope) {
+        switch (part.kind) {
+            case Kind::kLink:
+                return convert_link(part, scope);
+            case Kind::kJoint:
+                return convert_joint_of(part, scope);
+            case Kind::kModel:
+                return convert_nested(part, scope);
+            case Kind::kFrame:
+                return convert_frame(part, scope);
+        }
     }
 
-    void convert_nested(const sdf::Model& nested, const Scope& outer) {
-        const Element source = read_.source_of(nested.Element());
+    void convert_frame(const TreePart& frame, const Scope& scope) {
+        const auto link = std::ranges::find(spec_.links, scope.prefix + frame.body, &LinkSpec::name);
+        if (link == spec_.links.end()) return;
+        const Pose X_MF = scope.X_MS * frame.X_MP;
+        spec_.frames.push_back({scope.prefix + frame.name, link->name, inverse(link->X_ML) * X_MF});
+    }
+
+    void convert_nested(const TreePart& nested, const Scope& outer) {
         const std::size_t first = spec_.links.size();
-        convert({nested, outer.prefix + nested.Name() + "::", outer.X_MS * resolved(nested, "__model__"),
-                 import_.reader.boolean(source, "enable_wind", outer.wind)});
-        if (nested.Static())
+        convert({*nested.model, outer.prefix + nested.name + "::", outer.X_MS * nested.X_MP,
+                 import_.reader.boolean(nested.source, "enable_wind", outer.wind)});
+        if (nested.model->is_static)
             for (std::size_t l = first; l < spec_.links.size(); ++l) static_.insert(spec_.links[l].name);
-        report_nested_flags(source);
+        report_nested_flags(nested.source);
     }
 
     /// Flags that only the outermost model has.
@@ -183,27 +180,21 @@ class ModelConverter {
         report("allow_auto_disable", spec_.may_sleep);
     }
 
-    void convert_link(const sdf::Link& link, const Scope& scope) {
-        const Element source = read_.source_of(link.Element());
+    void convert_link(const TreePart& link, const Scope& scope) {
+        const Element& source = link.source;
         LinkSpec spec;
-        spec.name = scope.prefix + link.Name();
+        spec.name = scope.prefix + link.name;
         spec.where = source.where();
-        spec.X_ML = scope.X_MS * resolved(link, "__model__");
-        if (!source) {
-            import_.diagnostics().warning(
-                read_.source().where(), "lost-link",
-                "link '" + spec.name + "' cannot be found again in the file; it has no shapes");
-            spec_.links.push_back(std::move(spec));
-            return;
-        }
-        const auto collision_pose = [&](const Element& collision) {
-            return pose_of(collision, link.CollisionByName(name_among_siblings(collision)), link);
+        spec.X_ML = scope.X_MS * link.X_MP;
+        const auto pose_in_link = [&](const Element& part) {
+            return scope.model.pose_in(link, part, import_.reader);
         };
-        if (!spec_.is_static && !spec_.kinematic) convert_inertial(source, collision_pose, import_, spec);
+        if (!spec_.is_static && !spec_.kinematic) convert_inertial(source, pose_in_link, import_, spec);
         convert_link_flags(source, spec);
         convert_drag(source, scope.wind, import_, spec);
         for (const auto node : source.node.children()) {
-            if (node.type() == pugi::node_element) convert_part({source.source, node}, link, scope, spec);
+            if (node.type() == pugi::node_element)
+                convert_part({source.source, node}, pose_in_link, scope.prefix, spec);
         }
         convert_retro(source, spec);
         spec_.links.push_back(std::move(spec));
@@ -247,58 +238,46 @@ class ModelConverter {
     }
 
     /// A <collision>, <visual>, <light> or sensor of a link.
-    void convert_part(const Element& part, const sdf::Link& link, const Scope& scope, LinkSpec& spec) {
+    void convert_part(const Element& part, const PoseInLink& pose_of, const std::string& scope,
+                      LinkSpec& spec) {
         const char* tag = part.node.name();
-        const std::string name = name_among_siblings(part);
         if (std::strcmp(tag, "collision") == 0) {
-            report_repeated(part, name);
-            const auto* known = link.CollisionByName(name);
-            if (auto collision = convert_collision(part, pose_of(part, known, link), import_)) {
+            report_repeated(part);
+            if (auto collision = convert_collision(part, pose_of(part), import_))
                 spec.collisions.push_back(std::move(*collision));
-            }
         } else if (std::strcmp(tag, "visual") == 0) {
-            for (VisualSpec& visual :
-                 convert_visual(part, pose_of(part, link.VisualByName(name), link), import_))
+            for (VisualSpec& visual : convert_visual(part, pose_of(part), import_))
                 spec.visuals.push_back(std::move(visual));
         } else if (std::strcmp(tag, "light") == 0) {
-            if (auto light = convert_light(part, pose_of(part, link.LightByName(name), link), import_))
+            if (auto light = convert_light(part, pose_of(part), import_))
                 spec.lights.push_back(std::move(*light));
         } else if (std::strcmp(tag, "sensor") == 0 || std::strcmp(tag, "roboss:sensor") == 0 ||
                    std::strcmp(tag, "roboss:radio") == 0) {
-            const Pose X_LS = pose_of(part, link.SensorByName(name), link);
-            std::vector<SensorSpec> cameras = convert_multicamera(part, X_LS, scope.prefix, import_);
-            if (cameras.empty()) cameras.push_back(convert_sensor(part, X_LS, scope.prefix, import_));
+            const Pose X_LS = pose_of(part);
+            std::vector<SensorSpec> cameras = convert_multicamera(part, X_LS, scope, import_);
+            if (cameras.empty()) cameras.push_back(convert_sensor(part, X_LS, scope, import_));
             std::ranges::move(cameras, std::back_inserter(spec.sensors));
         }
     }
 
-    void report_repeated(const Element& collision, const std::string& other) {
-        if (other == collision.name()) return;
-        import_.diagnostics().warning(
-            collision.where(), "repeated-name",
-            "a link has several collisions named '" + collision.name() + "': all of them count",
-            "Give each a name of its own.");
+    void report_repeated(const Element& collision) {
+        for (auto node = collision.node.previous_sibling("collision"); node;
+             node = node.previous_sibling("collision")) {
+            if (collision.name() != node.attribute("name").value()) continue;
+            import_.diagnostics().warning(
+                collision.where(), "repeated-name",
+                "a link has several collisions named '" + collision.name() + "': all of them count",
+                "Give each a name of its own.");
+            return;
+        }
     }
 
-    /// Ours to read unless it is relative to another frame; then libsdformat knows.
-    template <class Posed>
-    Pose pose_of(const Element& part, const Posed* known, const sdf::Link& link) {
-        const Element pose = part.child("pose");
-        if (relative_to(pose).empty()) return import_.reader.pose(pose);
-        import_.reader.pose(pose);
-        if (known == nullptr) return {};
-        return resolved(*known, link.Name());
-    }
-
-    void convert_joint_of(const sdf::Joint& joint, const Scope& scope) {
-        Element source = read_.source_of(joint.Element());
-        if (!source) source = read_.source();
-        auto spec =
-            convert_joint(joint, source, scope.X_MS * resolved(joint, "__model__"), scope.prefix, import_);
+    void convert_joint_of(const TreePart& joint, const Scope& scope) {
+        auto spec = convert_joint(joint, scope.model, scope.X_MS * joint.X_MP, scope.prefix, import_);
         if (!spec) return;
-        if (source.node.attribute(kJointName)) spec_.shared_names = true;
-        for (const auto node : source.node.children("sensor"))
-            convert_joint_sensor({source.source, node}, *spec, scope);
+        if (joint.source.node.attribute(kJointName)) spec_.shared_names = true;
+        for (const auto node : joint.source.node.children("sensor"))
+            convert_joint_sensor({joint.source.source, node}, joint, *spec, scope);
         spec_.joints.push_back(std::move(*spec));
     }
 
@@ -324,10 +303,11 @@ class ModelConverter {
     }
 
     /// A force-torque sensor: it stands on the joint's child link.
-    void convert_joint_sensor(const Element& element, const JointSpec& joint, const Scope& scope) {
+    void convert_joint_sensor(const Element& element, const TreePart& part, const JointSpec& joint,
+                              const Scope& scope) {
         const auto child = std::ranges::find(spec_.links, joint.child, &LinkSpec::name);
         if (child == spec_.links.end()) return;
-        const Pose X_MS = joint.X_MJ * import_.reader.pose(element.child("pose"));
+        const Pose X_MS = joint.X_MJ * scope.model.pose_in(part, element, import_.reader);
         SensorSpec sensor = convert_sensor(element, inverse(child->X_ML) * X_MS, scope.prefix, import_);
         if (auto* force_torque = sensor.as<ForceTorqueSpec>()) {
             force_torque->joint = joint.name;
@@ -340,7 +320,6 @@ class ModelConverter {
         }
     }
 
-    const ReadModel& read_;
     const Import& import_;
     ModelSpec& spec_;
     std::size_t kinematic_links_ = 0;
@@ -349,41 +328,21 @@ class ModelConverter {
 
 }  // namespace
 
-ModelSpec convert_model(const ReadModel& read, bool is_static, const Import& import) {
+ModelSpec convert_model(const ModelTree& model, bool is_static, const Import& import) {
+    const Element& source = model.source;
     ModelSpec spec;
-    const Element source = read.source();
     spec.name = source.name();
     spec.where = source.where();
     spec.is_static = is_static;
     spec.self_collide = import.reader.boolean(source, "self_collide", false);
     spec.may_sleep = import.reader.boolean(source, "allow_auto_disable", true);
-    spec.canonical_link = read.model().CanonicalLinkAndRelativeName().second;
-    report_newer_elements(source, import.diagnostics());
-    report_ignored_elements(source, import.diagnostics());
-    ModelConverter converter(read, import, spec);
-    converter.convert({read.model(), "", {}, import.reader.boolean(source, "enable_wind", false)});
+    spec.canonical_link = model.canonical_link;
+    ModelConverter converter(import, spec);
+    converter.convert({model, "", {}, import.reader.boolean(source, "enable_wind", false)});
     converter.fix_static_links();
     converter.fix_kinematic_links();
     converter.fix_terrain();
     return spec;
-}
-
-std::optional<Pose> pose_in_model(const ReadModel& read, const std::string& scoped_name) {
-    const sdf::Model* model = &read.model();
-    std::string rest = scoped_name;
-    Pose X_MS;
-    for (std::size_t at = rest.find("::"); at != std::string::npos; at = rest.find("::")) {
-        model = model->ModelByName(rest.substr(0, at));
-        if (model == nullptr) return std::nullopt;
-        X_MS = X_MS * resolved(*model, "__model__");
-        rest = rest.substr(at + 2);
-    }
-    if (rest == "__model__") return X_MS;
-    if (const auto* link = model->LinkByName(rest)) return X_MS * resolved(*link, "__model__");
-    if (const auto* frame = model->FrameByName(rest)) return X_MS * resolved(*frame, "__model__");
-    if (const auto* joint = model->JointByName(rest)) return X_MS * resolved(*joint, "__model__");
-    if (const auto* nested = model->ModelByName(rest)) return X_MS * resolved(*nested, "__model__");
-    return std::nullopt;
 }
 
 }  // namespace roboss::sdf_import

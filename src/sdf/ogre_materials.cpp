@@ -65,7 +65,7 @@ void read_line(const std::vector<std::string_view>& words, OgreMaterial& materia
 }
 
 /// What a material that inherits from `name` begins as.
-OgreMaterial parent_of(const std::string& name, const OgreMaterials& known) {
+OgreMaterial inherited(const std::string& name, const OgreMaterials& known) {
     if (const auto found = known.find(name); found != known.end()) return found->second;
     const OgreMaterial* gazebo = gazebo_material(name);
     return gazebo != nullptr ? *gazebo : OgreMaterial{};
@@ -99,7 +99,7 @@ OgreMaterials parse_material_script(std::string_view text) {
             open = nullptr;
             if (words.front() != "material" || words.size() < 2) continue;
             const bool inherits = words.size() > 3 && words[2] == ":";
-            OgreMaterial start = inherits ? parent_of(std::string(words[3]), found) : OgreMaterial{};
+            OgreMaterial start = inherits ? inherited(std::string(words[3]), found) : OgreMaterial{};
             open = &found.insert_or_assign(std::string(words[1]), std::move(start)).first->second;
         } else if (open != nullptr) {
             read_line(words, *open);

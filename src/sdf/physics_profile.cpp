@@ -8,10 +8,10 @@
 namespace roboss::sdf_import {
 namespace {
 
-constexpr const char* kKnown[] = {"max_step_size",   "real_time_factor", "real_time_update_rate",
-                                  "max_contacts",    "gravity",          "magnetic_field",
-                                  "roboss:accuracy", "roboss:precision", "ode",
-                                  "bullet",          "simbody",          "dart"};
+constexpr const char* kPhysicsChildren[] = {"max_step_size",   "real_time_factor", "real_time_update_rate",
+                                            "max_contacts",    "gravity",          "magnetic_field",
+                                            "roboss:accuracy", "roboss:precision", "ode",
+                                            "bullet",          "simbody",          "dart"};
 
 std::string names_of(const std::vector<Element>& profiles) {
     std::string all;
@@ -105,7 +105,8 @@ void read_physics(const Element& world, const std::string& wanted, Import& impor
         read_precision(physics, import, out);
         report_engines(physics, import);
     }
-    for (const Element& profile : profiles) report_unknown_children(profile, kKnown, import.diagnostics());
+    for (const Element& profile : profiles)
+        report_unknown_children(profile, kPhysicsChildren, import.diagnostics());
     out.gravity = import.reader.vector(world, "gravity", out.gravity);
     import.dt_s = out.dt_s;
 }

@@ -3,6 +3,8 @@
 
 #include <cstring>
 
+#include "sdf/known_elements.h"
+
 namespace roboss::sdf_import {
 namespace {
 
@@ -13,6 +15,7 @@ std::optional<Placement> placement_of_include(const Element& include, IncludeSto
                                      "merge=\"true\" has no meaning in a world; the model is included whole",
                                      "Remove the attribute.");
     }
+    report_unknown_elements(include, import.diagnostics());
     const Element model = includes.model_of(include);
     if (!model) return std::nullopt;
     auto placement = placement_of(model, includes, import);

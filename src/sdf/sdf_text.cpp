@@ -32,35 +32,37 @@ pugi::xml_node SdfText::add(pugi::xml_node parent, const char* name, pugi::xml_n
                             const std::string& text) {
     auto node = parent ? parent.append_child(name) : document_.append_child(name);
     if (!text.empty()) node.text() = text.c_str();
-    if (const int line = source_.line(from); line > 0) lines_[node.hash_value()] = line;
+    if (SourceLocation place = source_.where(from); place.line > 0)
+        places_[node.hash_value()] = std::move(place);
     return node;
 }
 
-pugi::xml_node SdfText::copy(pugi::xml_node parent, pugi::xml_node from) {
-    const auto node = parent.append_copy(from);
-    keep_lines(node, from);
+pugi::xml_node SdfText::copy(pugi::xml_node parent, const Element& from) {
+    const auto node = parent.append_copy(from.node);
+    keep_places(node, from);
     return node;
 }
 
-void SdfText::keep_lines(pugi::xml_node node, pugi::xml_node from) {
-    lines_[node.hash_value()] = source_.line(from);
-    auto original = from.first_child();
+void SdfText::keep_places(pugi::xml_node node, const Element& from) {
+    places_[node.hash_value()] = from.where();
+    auto original = from.node.first_child();
     for (const auto child : node.children()) {
-        if (child.type() == pugi::node_element) keep_lines(child, original);
+        if (child.type() == pugi::node_element) keep_places(child, {from.source, original});
         original = original.next_sibling();
     }
 }
 
-void SdfText::print(pugi::xml_node node, int line, std::string& text, std::vector<int>& lines) const {
-    if (const auto known = lines_.find(node.hash_value()); known != lines_.end()) line = known->second;
-    lines.push_back(line);
+void SdfText::print(pugi::xml_node node, SourceLocation place, std::string& text,
+                    std::vector<SourceLocation>& places) const {
+    if (const auto known = places_.find(node.hash_value()); known != places_.end()) place = known->second;
+    places.push_back(place);
     text += "\n<" + std::string(node.name());
     for (const auto attribute : node.attributes())
         text += " " + std::string(attribute.name()) + "=\"" + escaped(attribute.value()) + "\"";
     text += '>';
     for (const auto child : node.children()) {
         if (child.type() == pugi::node_element)
-            print(child, line, text, lines);
+            print(child, place, text, places);
         else if (child.type() == pugi::node_pcdata || child.type() == pugi::node_cdata)
             text += escaped(child.value());
     }
@@ -69,9 +71,9 @@ void SdfText::print(pugi::xml_node node, int line, std::string& text, std::vecto
 
 std::unique_ptr<SourceFile> SdfText::read(Diagnostics& diagnostics) const {
     std::string text = "<?xml version=\"1.0\"?>";
-    std::vector<int> lines{1};
-    print(document_.document_element(), 1, text, lines);
-    return SourceFile::from_text(source_.path(), std::move(text), std::move(lines), diagnostics);
+    std::vector<SourceLocation> places{{source_.path(), 1}};
+    print(document_.document_element(), places.front(), text, places);
+    return SourceFile::from_text(source_.path(), std::move(text), std::move(places), diagnostics);
 }
 
 }  // namespace roboss::sdf_import

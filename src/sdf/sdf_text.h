@@ -1,5 +1,5 @@
-// SdfText: SDF that is made from another format, element by element. Each element keeps the line of the
-// source that it came from, so that every finding about it leads there.
+// SdfText: SDF that is made from another format or from several files, element by element. Each element keeps
+// the place in the source that it came from, so that every finding about it leads there.
 #pragma once
 
 #include <memory>
@@ -24,18 +24,24 @@ class SdfText {
     pugi::xml_node add(pugi::xml_node parent, const char* name, pugi::xml_node from,
                        const std::string& text = {});
     /// All of `from`, with what is in it.
-    pugi::xml_node copy(pugi::xml_node parent, pugi::xml_node from);
+    pugi::xml_node copy(pugi::xml_node parent, pugi::xml_node from) { return copy(parent, {&source_, from}); }
+    /// The same of an element of another file.
+    pugi::xml_node copy(pugi::xml_node parent, const Element& from);
+
+    /// Findings about `node` lead to `from`.
+    void place(pugi::xml_node node, const Element& from) { places_[node.hash_value()] = from.where(); }
 
     /// The finished text, as a file to be read.
     std::unique_ptr<SourceFile> read(Diagnostics& diagnostics) const;
 
   private:
-    void keep_lines(pugi::xml_node node, pugi::xml_node from);
-    void print(pugi::xml_node node, int line, std::string& text, std::vector<int>& lines) const;
+    void keep_places(pugi::xml_node node, const Element& from);
+    void print(pugi::xml_node node, SourceLocation place, std::string& text,
+               std::vector<SourceLocation>& places) const;
 
     const SourceFile& source_;
     pugi::xml_document document_;
-    std::unordered_map<std::size_t, int> lines_;  // by the node's hash value
+    std::unordered_map<std::size_t, SourceLocation> places_;  // by the node's hash value
 };
 
 }  // namespace roboss::sdf_import

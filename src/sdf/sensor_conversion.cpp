@@ -22,7 +22,7 @@ bool is_ours(const Element& sensor) {
 }
 
 /// Gazebo's type of a sensor of type "custom": "environmental_sensor/humidity". A <roboss:radio> has none.
-std::string type_of(const Element& sensor) {
+std::string sensor_type_of(const Element& sensor) {
     if (std::strcmp(sensor.node.name(), "roboss:radio") == 0) return "radio";
     std::string type = sensor.node.attribute("type").value();
     if (type != "custom") return type;
@@ -134,7 +134,7 @@ void read_block(SensorParameters& parameters, const Element& sensor, const Eleme
 SensorSpec head_of(const Element& sensor, const Pose& X_LS, const Import& import) {
     SensorSpec spec;
     spec.name = sensor.name();
-    spec.sdf_type = type_of(sensor);
+    spec.sdf_type = sensor_type_of(sensor);
     spec.where = sensor.where();
     spec.X_LS = X_LS;
     spec.update_rate_hz = import.reader.number(sensor, "update_rate", 0);
@@ -172,7 +172,7 @@ SensorParameters read_parameters(const Element& sensor, const SensorSpec& spec, 
 std::vector<SensorSpec> convert_multicamera(const Element& sensor, const Pose& X_LS, const std::string& scope,
                                             const Import& import) {
     std::vector<SensorSpec> cameras;
-    if (type_of(sensor) != "multicamera") return cameras;
+    if (sensor_type_of(sensor) != "multicamera") return cameras;
     for (const auto node : sensor.node.children("camera")) {
         const Element camera{sensor.source, node};
         SensorSpec& spec = cameras.emplace_back(head_of(sensor, X_LS, import));

@@ -18,7 +18,27 @@ int parse_version(const std::string& text) {
 }
 
 int version_of(const SourceFile& file) {
-    return parse_version(file.root().attribute("version").value());
+    const int version = parse_version(file.root().attribute("version").value());
+    return version == 0 ? kAssumedVersion : version;
+}
+
+void check_version(const SourceFile& file, Diagnostics& diagnostics) {
+    const SourceLocation where = file.where(file.root());
+    const std::string written = file.root().attribute("version").value();
+    if (parse_version(written) == 0)
+        diagnostics.warning(where, "no-version",
+                            "<sdf> has " +
+                                (written.empty() ? "no version" : "the version '" + written + "'") +
+                                "; the file is read as 1.9",
+                            "Write <sdf version=\"1.9\">, or the version that the file was made for.");
+    else if (version_of(file) < kOldestVersion)
+        diagnostics.warning(where, "old-version",
+                            "SDFormat " + written + " is older than 1.4, the oldest that is supported",
+                            "Convert it with: gz sdf -p FILE.");
+    else if (version_of(file) > kNewestVersion)
+        diagnostics.warning(where, "newer-version",
+                            "SDFormat " + written + " is newer than 1.12; elements it adds may be missed",
+                            "Look through the other diagnostics; elements that are not known are reported.");
 }
 
 std::string name_of_joint(pugi::xml_node joint) {

@@ -16,8 +16,15 @@ using xml::words_of;
 /// SDFormat versions as major * 100 + minor: 1.6 is 106, 1.12 is 112. 0: unknown.
 int parse_version(const std::string& text);
 
-/// The version that the root element names.
+inline constexpr int kOldestVersion = 104;
+inline constexpr int kNewestVersion = 112;
+inline constexpr int kAssumedVersion = 109;  // of a file that names none
+
+/// The version that the root element names; kAssumedVersion if it names none.
 int version_of(const SourceFile& file);
+
+/// Reports a version that is missing, older than 1.4 or newer than 1.12.
+void check_version(const SourceFile& file, Diagnostics& diagnostics);
 
 /// Attribute of a <joint> of a URDF that has the name of a link: that name, which SDF gives to one of them
 /// only.

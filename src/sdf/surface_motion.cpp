@@ -8,7 +8,7 @@ namespace roboss::sdf_import {
 namespace {
 
 constexpr const char* kElement = "roboss:surface_velocity";
-constexpr const char* kKnown[] = {"linear", "angular", "topic", "fixed"};
+constexpr const char* kMotionChildren[] = {"linear", "angular", "topic", "fixed"};
 
 }  // namespace
 
@@ -24,7 +24,7 @@ void convert_surface_velocity(const Element& element, const std::string& scope, 
                               ModelSpec& model) {
     pugi::xml_node link = element.node.parent();
     if (std::strcmp(link.name(), "collision") == 0) link = link.parent();
-    report_unknown_children(element, kKnown, import.diagnostics());
+    report_unknown_children(element, kMotionChildren, import.diagnostics());
     SurfaceVelocitySpec spec;
     SurfaceVelocitySpec::parameters(ParameterReader{element, scope, import}, spec);
     spec.link = LinkNames{scope + link.attribute("name").value()};

@@ -14,7 +14,7 @@ std::uint32_t flags_of(const Element& visual, const Import& import) {
     return static_cast<std::uint32_t>(std::clamp(flags, 0.0, kAll));
 }
 
-std::optional<Vec3> colour_in(const Element& material, const char* child) {
+std::optional<Vec3> material_colour(const Element& material, const char* child) {
     const auto words = words_of(material.node.child(child).text().get());
     if (words.size() < 3) return std::nullopt;
     return Vec3{parse_number(words[0]).value_or(0), parse_number(words[1]).value_or(0),
@@ -23,8 +23,8 @@ std::optional<Vec3> colour_in(const Element& material, const char* child) {
 
 /// Highlights and glow, in any material.
 void read_glow(const Element& material, VisualSpec& spec) {
-    if (const auto specular = colour_in(material, "specular")) spec.specular = specular;
-    if (const auto emissive = colour_in(material, "emissive")) spec.emissive = emissive;
+    if (const auto specular = material_colour(material, "specular")) spec.specular = specular;
+    if (const auto emissive = material_colour(material, "emissive")) spec.emissive = emissive;
 }
 
 /// What an OGRE script says; colours that the file writes itself come after it.

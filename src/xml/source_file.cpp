@@ -115,7 +115,7 @@ pugi::xml_parse_result parsed(pugi::xml_document& document, const std::string& t
 }
 
 /// Where the text ends if the end tag that broke the parsing off, and what follows, are end tags only; else
-/// all of it. TinyXML-2, which MuJoCo and libsdformat read with, stops there without a word.
+/// all of it. TinyXML-2, which MuJoCo and Gazebo read with, stops there without a word.
 std::size_t end_before_stray_tags(const std::string& text, const pugi::xml_parse_result& result) {
     if (result.status != pugi::status_end_element_mismatch) return text.size();
     const std::size_t tag = text.rfind("</", static_cast<std::size_t>(result.offset));
@@ -153,11 +153,11 @@ std::unique_ptr<SourceFile> SourceFile::read(const std::string& path, Diagnostic
 }
 
 std::unique_ptr<SourceFile> SourceFile::from_text(const std::string& path, std::string text,
-                                                  std::vector<int> lines, Diagnostics& diagnostics,
-                                                  int deepest) {
+                                                  std::vector<SourceLocation> places,
+                                                  Diagnostics& diagnostics, int deepest) {
     auto file = std::make_unique<SourceFile>();
     file->path_ = path;
-    file->line_map_ = std::move(lines);
+    file->places_ = std::move(places);
     if (!file->parse(std::move(text), diagnostics, deepest)) return nullptr;
     return file;
 }
@@ -204,11 +204,11 @@ std::string SourceFile::folder() const {
     return std::filesystem::path(path_).parent_path().string();
 }
 
-int SourceFile::line(pugi::xml_node node) const {
+SourceLocation SourceFile::where(pugi::xml_node node) const {
     const int line = line_of_offset(node.offset_debug());
-    if (line_map_.empty() || line == 0) return line;
+    if (places_.empty() || line == 0) return {path_, line};
     const auto index = static_cast<std::size_t>(line - 1);
-    return index < line_map_.size() ? line_map_[index] : 0;
+    return index < places_.size() ? places_[index] : SourceLocation{path_, 0};
 }
 
 int SourceFile::line_of_offset(std::ptrdiff_t offset) const {

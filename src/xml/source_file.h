@@ -23,25 +23,25 @@ std::string trimmed(std::string_view text);
 
 class SourceFile {
   public:
-    /// tinyxml2, inside libsdformat, refuses more; no world comes near it.
+    /// Keeps recursive readers from the end of the stack; no world comes near it.
     static constexpr int kDeepestWorld = 100;
 
     /// Reads and parses a file; a malformed or missing one gives an error and nullptr.
     static std::unique_ptr<SourceFile> read(const std::string& path, Diagnostics& diagnostics);
 
-    /// Parses text that was made from `path` (an SDF from a URDF); `lines[i]` is the line of `path` behind
-    /// line i + 1 of the text. Without `lines` they are the same. Elements that are nested deeper than
+    /// Parses text that was made from `path` (an SDF from a URDF); `places[i]` is where line i + 1 of the
+    /// text comes from. Without `places` the text is that of `path`. Elements that are nested deeper than
     /// `deepest` are an error.
     static std::unique_ptr<SourceFile> from_text(const std::string& path, std::string text,
-                                                 std::vector<int> lines, Diagnostics& diagnostics,
+                                                 std::vector<SourceLocation> places, Diagnostics& diagnostics,
                                                  int deepest = kDeepestWorld);
 
     const std::string& path() const { return path_; }
     std::string folder() const;
     pugi::xml_node root() const { return document_.document_element(); }
 
-    int line(pugi::xml_node node) const;
-    SourceLocation where(pugi::xml_node node) const { return {path_, line(node)}; }
+    int line(pugi::xml_node node) const { return where(node).line; }
+    SourceLocation where(pugi::xml_node node) const;
 
   private:
     bool parse(std::string text, Diagnostics& diagnostics, int deepest);
@@ -50,7 +50,7 @@ class SourceFile {
     std::string path_;
     pugi::xml_document document_;
     std::vector<std::size_t> line_starts_;
-    std::vector<int> line_map_;  // empty: identity
+    std::vector<SourceLocation> places_;  // by line; empty: those of the file itself
 };
 
 struct Element {
