@@ -19,6 +19,9 @@ struct WrongModel {
     const char* code;
     const char* version = "1.9";
 };
+void PrintTo(const WrongModel& model, std::ostream* out) {
+    *out << model.name;
+}
 
 const std::string kTwo = link("a") + link("b");
 
@@ -58,7 +61,20 @@ TEST_P(WrongModels, AreToldWithTheirLine) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Models, WrongModels, testing::ValuesIn(kWrong),
-                         [](const auto& info) { return std::string(info.param.name); });
+                         [](const auto& each) { return std::string(each.param.name); });
+
+TEST(ModelTree, FramesMayStandInALongChain) {
+    constexpr int kFrames = 100'000;
+    std::string chain;
+    for (int i = 0; i < kFrames; ++i)
+        chain += "<frame name='f" + std::to_string(i) + "' attached_to='f" + std::to_string(i + 1) + "'/>";
+    chain += "<frame name='f" + std::to_string(kFrames) + "' attached_to='b'/>";
+    const Loaded loaded =
+        load_elements("<model name='m'>" + kTwo + chain +
+                      "<joint name='j' type='fixed'><parent>a</parent><child>f0</child></joint></model>");
+    ASSERT_FALSE(loaded.diagnostics.has_errors()) << loaded.text();
+    EXPECT_EQ(loaded.world->prototypes[0].joints.at(0).child, "b");
+}
 
 TEST(ModelTree, NamesThatClashInAnOldFileGetAnEnding) {
     const Loaded loaded = load_elements(

@@ -296,37 +296,57 @@ class TreeReader {
         return true;
     }
 
-    void solve_pose(std::size_t i) {
+    /// A joint without relative_to stands in the frame of its child; validate() reports a child that is not
+    /// there.
+    static const std::string& frame_of(const Draft& draft) {
+        return draft.relative_to.empty() ? draft.attached_to : draft.relative_to;
+    }
+
+    /// The part and those that it depends on, each before the one that needs it. Chains may be longer than a
+    /// stack.
+    std::vector<std::size_t> in_order_of_need(std::size_t part, State Draft::*state,
+                                              const std::string& (*needs)(const Draft&)) {
+        std::vector<std::size_t> way;
+        std::optional<ModelTree::Named> next = ModelTree::Named{part, {}};
+        while (next && enter(drafts_[next->part].*state, tree_->parts[next->part])) {
+            way.push_back(next->part);
+            next = tree_->locate(needs(drafts_[next->part]));
+        }
+        std::ranges::reverse(way);
+        return way;
+    }
+
+    void solve_pose(std::size_t part) {
+        for (const std::size_t i : in_order_of_need(part, &Draft::pose, frame_of)) place(i);
+    }
+
+    void place(std::size_t i) {
         Draft& draft = drafts_[i];
         TreePart& part = tree_->parts[i];
-        if (!enter(draft.pose, part)) return;
-        const bool of_child =
-            draft.relative_to.empty();  // a joint's; validate() reports a child that is not there
-        const std::string& frame = of_child ? draft.attached_to : draft.relative_to;
-        const auto named = tree_->locate(frame);
-        if (named) solve_pose(named->part);
+        const std::string& frame = frame_of(draft);
         const auto X_MR = tree_->pose_of(frame);
         part.X_MP = X_MR ? *X_MR * draft.X_RP : draft.X_RP;
         draft.pose = State::kDone;
-        if (X_MR || of_child) return;
+        if (X_MR || draft.relative_to.empty()) return;
         diagnostics().error(part.source.where(), "unknown-frame",
                             std::string(tag_of(part.kind)) + " '" + part.name + "' is relative to '" + frame +
                                 "', which model '" + tree_->source.name() + "' does not have",
                             "Name a link, joint, frame or nested model of the model, or NESTED::NAME.");
     }
 
-    void solve_body(std::size_t i) {
+    void solve_body(std::size_t part) {
+        const auto needs = [](const Draft& draft) -> const std::string& { return draft.attached_to; };
+        for (const std::size_t i : in_order_of_need(part, &Draft::body, needs)) attach(i);
+    }
+
+    void attach(std::size_t i) {
         Draft& draft = drafts_[i];
         TreePart& part = tree_->parts[i];
-        if (!enter(draft.body, part)) return;
-        if (part.kind == Kind::kModel) {
-            if (!part.model->canonical_link.empty())
-                part.body = part.name + "::" + part.model->canonical_link;
-        } else {
-            if (const auto named = tree_->locate(draft.attached_to)) solve_body(named->part);
+        if (part.kind != Kind::kModel)
             part.body = tree_->body_of(draft.attached_to)
                             .value_or(part.kind == Kind::kJoint ? draft.attached_to : "");
-        }
+        else if (!part.model->canonical_link.empty())
+            part.body = part.name + "::" + part.model->canonical_link;
         draft.body = State::kDone;
         const bool reported = draft.relative_to == draft.attached_to;  // with its pose
         if (part.kind != Kind::kFrame || reported || tree_->pose_of(draft.attached_to)) return;

@@ -21,7 +21,8 @@ class CheckLayers(unittest.TestCase):
             "src/core/a.h": "#include <vector>\n",
             "src/math/b.h": "",
             "src/math/b.cpp": '#include "math/b.h"\n#include "core/a.h"\n',
-            "src/sdf/c.cpp": '#include <sdf/sdf.hh>\n#include "core/a.h"\n',
+            "src/sdf/c.cpp": '#include "core/a.h"\n',
+            "src/sdf/c_test.cpp": '#include <sdf/sdf.hh>\n',
             "src/app/d.cpp": '#include <CLI/CLI.hpp>\n#include "math/b.h"\n',
             "src/math/b_test.cpp": "#include <gtest/gtest.h>\n#include <random>\n",
         })

@@ -213,7 +213,7 @@ TEST(SavedState, WhatIsWrongLeavesItsModelOutAndIsNamed) {
     EXPECT_TRUE(loaded.find("left-out"));
     const Loaded odd =
         load_elements("<model name='m'>" + link("a") +
-                      "</model><state world_name='w'><model name='m'><pose frame='f'>1 2 3 0 0 "
+                      "</model><state world_name='w'><model name='m'><pose relative_to='f'>1 2 3 0 0 "
                       "0</pose><scale>2 0 1</scale><psoe/></model></state>");
     for (const char* code : {"state-frame", "state-scale", "unknown-element"})
         EXPECT_TRUE(odd.find(code)) << code << "\n" << odd.text();
