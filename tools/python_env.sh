@@ -5,10 +5,12 @@ set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 packages=tools/python_packages.txt
 venv=$PWD/build/python/venv
+mkdir -p "$(dirname "$venv")"
+exec 9>"$venv.lock"
+flock 9  # another start may be making it
 stamp="$(${PYTHON:-python3} -c 'import sys; print(sys.executable, sys.version)') $(cat "$packages")"
 if [[ ! -f $venv/stamp || $(cat "$venv/stamp") != "$stamp" ]]; then
     rm -rf "$venv"
-    mkdir -p "$(dirname "$venv")"
     "${PYTHON:-python3}" -m venv "$venv" >&2
     "$venv/bin/python" -m pip install --quiet --disable-pip-version-check -r "$packages" >&2
     printf '%s\n' "$stamp" >"$venv/stamp"

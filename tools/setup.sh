@@ -10,11 +10,19 @@ fail() {
     exit 1
 }
 
-# Prints the packages of the groups given, in the order of the list, but for those that a command makes unneeded.
+# The codename of this system's release, such as bookworm.
+release() {
+    (. "${ROBOSS_OS_RELEASE:-/etc/os-release}" 2>/dev/null && printf '%s' "${VERSION_CODENAME:-}") || true
+}
+
+# Prints the packages of the groups given, in the order of the list, but for those that a command makes unneeded and
+# those of another release.
 wanted_packages() {
-    local group package instead
-    while read -r group package instead _; do
-        [[ $instead == unless=* ]] && command -v "${instead#unless=}" >/dev/null && continue
+    local group package mark release
+    release=$(release)
+    while read -r group package mark _; do
+        [[ $mark == unless=* ]] && command -v "${mark#unless=}" >/dev/null && continue
+        [[ $mark == only=* && ${mark#only=} != "$release" ]] && continue
         [[ " $* " == *" $group "* ]] && printf '%s\n' "$package"
     done < <(grep -v '^#' "$here/packages.txt")
     return 0
@@ -41,7 +49,7 @@ install_packages() {
     "${as_root[@]}" apt-get update -q || printf 'setup: apt-get update failed, trying with the lists that are there\n' >&2
     "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive \
         apt-get install -q -y --no-install-recommends "$@" || fail "apt-get could not install: $*
-  remedy: read apt's message above; the packages are those of Debian 12 (tools/packages.txt)"
+  remedy: read apt's message above; the packages are those of Debian 12 and 13 (tools/packages.txt)"
 }
 
 [[ $# -gt 0 ]] || fail "which groups? e.g. tools/setup.sh build test (see tools/packages.txt)"
@@ -49,6 +57,6 @@ install_packages() {
 command -v dpkg-query >/dev/null && command -v apt-get >/dev/null || fail "this is no Debian system
   remedy: install the counterparts of tools/packages.txt by hand and set ROBOSS_SKIP_SETUP=1"
 mapfile -t wanted < <(wanted_packages "$@")
-[[ ${#wanted[@]} -gt 0 ]] || fail "no packages in: $*"
+[[ ${#wanted[@]} -gt 0 ]] || fail "no packages for $(release) in: $*"
 mapfile -t missing < <(missing_packages "${wanted[@]}")
 [[ ${#missing[@]} -eq 0 ]] || install_packages "${missing[@]}"

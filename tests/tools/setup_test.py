@@ -1,5 +1,6 @@
 """tools/setup.sh: no apt when nothing is missing, the right packages when something is, a clear word when it cannot."""
 import os
+import platform
 import shutil
 import subprocess
 import tempfile
@@ -36,7 +37,13 @@ class Setup(unittest.TestCase):
     @staticmethod
     def packages(group):
         lines = (line.split() for line in (TOOLS / "packages.txt").read_text().splitlines() if not line.startswith("#"))
-        return [words[1] for words in lines if words[0] == group and not Setup.is_there_anyway(words)]
+        return [words[1] for words in lines if words[0] == group and not Setup.is_there_anyway(words) and not Setup.is_elsewhere(words)]
+
+    @staticmethod
+    def is_elsewhere(words):
+        """Marked only=RELEASE, and this machine has another one."""
+        release = platform.freedesktop_os_release().get("VERSION_CODENAME", "")
+        return any(word.startswith("only=") and word != f"only={release}" for word in words)
 
     @staticmethod
     def is_there_anyway(words):
@@ -75,10 +82,19 @@ class Setup(unittest.TestCase):
         self.assertIn("ROBOSS_SKIP_SETUP=1", output)
         self.assertEqual(self.run_setup([], "build", path=str(self.root), ROBOSS_SKIP_SETUP="1")[0], 0)
 
+    def test_installs_the_packages_of_this_release(self):
+        for release, its, other in (("bookworm", "libssl3", "libssl3t64"), ("trixie", "libssl3t64", "libssl3")):
+            (self.root / "os-release").write_text(f"VERSION_CODENAME={release}\n")
+            (self.root / "calls").unlink(missing_ok=True)
+            code, output, calls = self.run_setup([], "run", ROBOSS_OS_RELEASE=str(self.root / "os-release"))
+            self.assertEqual(code, 0, output)
+            self.assertIn(its, calls.split())
+            self.assertNotIn(other, calls.split())
+
     def test_refuses_a_group_that_is_not_there(self):
         code, output, _ = self.run_setup([], "nonsense")
         self.assertEqual(code, 1)
-        self.assertIn("no packages in: nonsense", output)
+        self.assertRegex(output, "no packages for .* in: nonsense")
 
 
 if __name__ == "__main__":
