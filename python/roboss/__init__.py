@@ -33,7 +33,7 @@ from .trajectories import CartesianTrajectory, JointTrajectory, ctraj, jtraj
 from .view import View
 from .world import World, example, load
 
-__version__ = "0.1.0"
+__version__ = "0.2.0"
 __all__ = [
     "ArgumentError", "Batch", "CONTACT", "Camera", "CartesianTrajectory", "ClusterError", "Diagnostic", "Follower",
     "IKSolution", "JointTrajectory", "Journal", "JournalError", "Message", "ModelBuilder", "MujocoOrder", "OrderError",
