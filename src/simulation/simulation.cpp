@@ -174,6 +174,13 @@ const std::vector<RobotState>& Simulation::states() {
     return *controller_.states();
 }
 
+bool Simulation::states_within(std::chrono::milliseconds patience) {
+    if (controller_.states() == nullptr) controller_.request_states();
+    const auto end = std::chrono::steady_clock::now() + patience;
+    turn_until([&] { return controller_.states() != nullptr || std::chrono::steady_clock::now() > end; });
+    return controller_.states() != nullptr;
+}
+
 StepProbe& Simulation::probe() {
     if (probe_.tick() == tick()) return probe_;
     std::vector<const RobotState*> pointers;

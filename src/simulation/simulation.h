@@ -3,6 +3,7 @@
 // their own processes.
 #pragma once
 
+#include <chrono>
 #include <functional>
 #include <map>
 #include <memory>
@@ -79,6 +80,9 @@ class Simulation {
     std::span<const ContactReport> contacts() { return probe().contacts(); }
     /// What the joints of the robot bear in the same tick.
     std::vector<JointReaction> joint_reactions(RobotId robot) { return probe().joint_reactions(robot); }
+    /// True when states() are here, after a wait of at most this long: the Simulators of a run that failed may
+    /// be gone, and the states with them.
+    bool states_within(std::chrono::milliseconds patience);
     /// Everything needed to continue exactly.
     SavedRun saved_run();
     /// Writes saved_run() to a file. An Error if that fails.

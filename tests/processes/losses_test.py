@@ -63,6 +63,19 @@ class Clients(unittest.TestCase):
             cluster.summary(controller)
             self.assertEqual([first.end(SOON_S), other.end(SOON_S)], [0, 0])
 
+    def test_a_failed_run_whose_simulators_are_gone_ends_without_its_save(self):
+        file = FOLDER / f"gone-{os.getpid()}.roboss"
+        with Cluster() as cluster:
+            controller = cluster.controller(*CITY, "--speed", 0.25, "--simulators", 1, "--await-client", "driver", "--save", file, *self.LOGGED)
+            simulator = cluster.simulator()
+            driver = cluster.start("client", DRIVER, "--name", "driver")
+            wait_for_tick(controller, 20)
+            driver.kill_only()
+            simulator.kill_only()
+            self.assertEqual(controller.end(40), RUN_FAILED, controller.said())
+            self.assertIn("[no-states]", controller.said())
+            self.assertFalse(file.exists())
+
     def test_one_that_died_without_a_successor_ends_the_run_and_the_same_command_continues_it(self):
         expected = embedded(*CITY, "--client", DRIVER)
         journal = FOLDER / f"lost-{os.getpid()}.journal"

@@ -477,6 +477,14 @@ Summary Run::summary(double wall_s) const {
     return s;
 }
 
+Result<> Run::save_end(bool fine) {
+    constexpr std::chrono::seconds kPatience{10};  // for Simulators that may be gone
+    if (!fine && !simulation_->states_within(kPatience))
+        return Error{"the state at the end is not saved: the Simulators that have it are gone",
+                     "continue from the last checkpoint of a --journal", "no-states"};
+    return save_run(o_.save, *model_, saved_run());
+}
+
 /// Writes files and summary, also of a failed run: nothing that was computed is lost.
 int Run::finish(bool fine, double wall_s) {
     bool written = true;
@@ -489,7 +497,7 @@ int Run::finish(bool fine, double wall_s) {
         check(dataset_->close());
         say(stderr, "wrote {}\n", dataset_->summary());
     }
-    if (!o_.save.empty() && !abandoned_) check(save_run(o_.save, *model_, saved_run()));
+    if (!o_.save.empty() && !abandoned_) check(save_end(fine));
     check(journal_->close());
     take_profile();
     const Summary s = summary(wall_s);  // the journal has its last size

@@ -81,6 +81,7 @@ class Run {
     bool takes_picture() const { return !o_.snapshot.file.empty() || o_.sense.wanted(); }
     bool writes_to_standard_output() const;
     Summary summary(double wall_s) const;
+    Result<> save_end(bool fine);
     int finish(bool fine, double wall_s);
 
     // run_loop.cpp: the time between
