@@ -80,8 +80,8 @@ class Simulation {
     std::span<const ContactReport> contacts() { return probe().contacts(); }
     /// What the joints of the robot bear in the same tick.
     std::vector<JointReaction> joint_reactions(RobotId robot) { return probe().joint_reactions(robot); }
-    /// True when states() are here, after a wait of at most this long: the Simulators of a run that failed may
-    /// be gone, and the states with them.
+    /// True when states() are here, after a wait of at most this long: the Simulators of a run that failed
+    /// may be gone, and the states with them.
     bool states_within(std::chrono::milliseconds patience);
     /// Everything needed to continue exactly.
     SavedRun saved_run();
