@@ -56,7 +56,7 @@ class Timeline(RobossTest):
         with LiveRun("run", WORLD, "--headless", "--speed", 1, "--until", 9, "--journal", FOLDER / "seen.journal",
                      "--journal-every", 0.5) as run:
             run.wait_for(0.8)
-            run.asked("speed", 0.02)  # it goes on, and does not end while it is asked, on a slow machine either
+            run.asked("speed", 0.02)  # the run does not end during these questions, even on a slow machine
             for at in (0.1, 0.734, 0.3, 0.75):
                 seen = run.asked("preview", at)
                 self.assertTrue(seen["exact"], seen)
@@ -106,15 +106,15 @@ class Timeline(RobossTest):
     def test_a_journal_with_a_limit_keeps_the_last_part_whole(self):
         file = FOLDER / "short.journal"
         undisturbed = summary(WORLD, "--until", 4)["state_hash"]
-        # Slow enough that most checkpoints are written: a run that is faster than its disk leaves some out.
+        # Slow enough that every checkpoint is written: a run that is faster than its disk leaves some out.
         found = summary(WORLD, "--until", 4, "--speed", 1, "--journal", file, "--journal-every", 0.1, "--journal-keep", "1s")
         self.assertEqual(found["state_hash"], undisturbed)
         branch = json.loads(roboss("journal", "info", file, "--json").stdout)["branches"][0]
-        self.assertGreaterEqual(branch["first_s"], 2.3)
+        self.assertGreaterEqual(branch["first_s"], 2.7)
         self.assertLessEqual(branch["first_s"], 3.0)
         verified = json.loads(roboss("journal", "verify", file, "--json").stdout)
         self.assertTrue(verified["good"])
-        self.assertGreaterEqual(len(verified["stretches"]), 4)
+        self.assertGreaterEqual(len(verified["stretches"]), 9)
         self.refused(["run", WORLD, "--from", f"{file}@1", "--quiet", "--headless", "--until", 4], 1, "no-such-time")
         self.assertEqual(summary(WORLD, "--from", f"{file}@3.5", "--until", 4)["state_hash"], undisturbed)
         self.assertEqual(roboss("replay", file, "--quiet").returncode, 0)

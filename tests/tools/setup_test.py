@@ -27,6 +27,12 @@ class Setup(unittest.TestCase):
         path.write_text(text)
         path.chmod(0o755)
 
+    def os_release(self, codename):
+        """A file like /etc/os-release of that release."""
+        path = self.root / "os-release"
+        path.write_text(f"VERSION_CODENAME={codename}\n")
+        return str(path)
+
     def run_setup(self, installed, *groups, path=None, **more):
         (self.root / "installed").write_text("".join(f"{name}\n" for name in installed))
         environment = {"PATH": path or f"{self.root}:/usr/bin:/bin", "STAND_INS": str(self.root), **more}
@@ -84,17 +90,16 @@ class Setup(unittest.TestCase):
 
     def test_installs_the_packages_of_this_release(self):
         for release, its, other in (("bookworm", "libssl3", "libssl3t64"), ("trixie", "libssl3t64", "libssl3")):
-            (self.root / "os-release").write_text(f"VERSION_CODENAME={release}\n")
             (self.root / "calls").unlink(missing_ok=True)
-            code, output, calls = self.run_setup([], "run", ROBOSS_OS_RELEASE=str(self.root / "os-release"))
+            code, output, calls = self.run_setup([], "run", ROBOSS_OS_RELEASE=self.os_release(release))
             self.assertEqual(code, 0, output)
             self.assertIn(its, calls.split())
             self.assertNotIn(other, calls.split())
 
     def test_refuses_a_group_that_is_not_there(self):
-        code, output, _ = self.run_setup([], "nonsense")
+        code, output, _ = self.run_setup([], "nonsense", ROBOSS_OS_RELEASE=self.os_release("trixie"))
         self.assertEqual(code, 1)
-        self.assertRegex(output, "no packages for .* in: nonsense")
+        self.assertIn("no packages for trixie in: nonsense", output)
 
 
 if __name__ == "__main__":
