@@ -9,8 +9,7 @@
 
 namespace roboss::sdf_import {
 /// Gazebo takes the number at the start of a word and leaves the rest: a quotation mark, a unit, a second
-/// point
-/// ("2.286.0"). A comma is no rest: it may stand for a point.
+/// point ("2.286.0"). A comma is no rest: it may stand for a point.
 std::optional<double> number_at_start(std::string_view text) {
     while (!text.empty() && !std::isdigit(static_cast<unsigned char>(text.back())) && text.back() != '.')
         text.remove_suffix(1);

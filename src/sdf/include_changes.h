@@ -1,4 +1,4 @@
-// What an <include> changes in the model that it includes: plugins of its own, and <experimental:params>,
+// Changes that an <include> makes in its model: plugins of its own, and <experimental:params>,
 // which adds, modifies, removes or replaces elements (sdformat.org, "SDFormat Parameter Passing").
 #pragma once
 

@@ -8,7 +8,7 @@
 namespace roboss::sdf_import {
 namespace {
 
-/// What may stand in an element; names between blanks.
+/// Children and attributes that an element may have; names between blanks.
 struct SdfElement {
     std::string_view name;
     std::string_view parent;  // empty: any

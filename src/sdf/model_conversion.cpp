@@ -40,9 +40,10 @@ class ModelConverter {
             convert_extensions(source, scope.prefix, import_, spec_, found);
             for (PluginSensor& sensor : found) sensors.emplace_back(std::move(sensor), scope.X_MS * X_SN);
         }
-        for (const auto kind : {Kind::kLink, Kind::kJoint, Kind::kModel, Kind::kFrame})
-            for (const TreePart& part : scope.model.parts)
-                if (part.kind == kind) convert_part_of_model(part, scope);
+        convert_each(Kind::kLink, &ModelConverter::convert_link, scope);
+        convert_each(Kind::kJoint, &ModelConverter::convert_joint_of, scope);
+        convert_each(Kind::kModel, &ModelConverter::convert_nested, scope);
+        convert_each(Kind::kFrame, &ModelConverter::convert_frame, scope);
         if (scope.prefix.empty()) find_joints_of_sensors();
         const std::string canonical = scope.prefix + scope.model.canonical_link;
         for (auto& [sensor, X_MN] : sensors)
@@ -138,17 +139,10 @@ class ModelConverter {
         spec_.joints.push_back(std::move(weld));
     }
 
-    void convert_part_of_model(const TreePart& part, const Scope& scope) {
-        switch (part.kind) {
-            case Kind::kLink:
-                return convert_link(part, scope);
-            case Kind::kJoint:
-                return convert_joint_of(part, scope);
-            case Kind::kModel:
-                return convert_nested(part, scope);
-            case Kind::kFrame:
-                return convert_frame(part, scope);
-        }
+    void convert_each(Kind kind, void (ModelConverter::*convert_it)(const TreePart&, const Scope&),
+                      const Scope& scope) {
+        for (const TreePart& part : scope.model.parts)
+            if (part.kind == kind) (this->*convert_it)(part, scope);
     }
 
     void convert_frame(const TreePart& frame, const Scope& scope) {

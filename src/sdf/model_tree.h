@@ -21,7 +21,7 @@ inline constexpr const char* kModelFrame = "__model__";
 
 struct ModelTree;
 
-/// What has a name, and so a frame, in a model: a nested model, link, joint or frame.
+/// A part of a model with a name, and so with a frame: a nested model, link, joint or frame.
 struct TreePart {
     enum class Kind { kModel, kLink, kJoint, kFrame };  // in the order in which their names count
     Kind kind = Kind::kLink;

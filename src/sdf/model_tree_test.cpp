@@ -1,5 +1,5 @@
-// Names and frames of models: what is wrong is told, with its line. That right ones are read right:
-// tests/corpus compares with libsdformat.
+// Wrong names and frames of models are reported with their line. tests/corpus compares right ones with
+// libsdformat.
 #include "sdf/model_tree.h"
 
 #include <gtest/gtest.h>

@@ -182,8 +182,7 @@ class TreeReader {
         for (Draft& draft : drafts_) {
             TreePart& part = draft.part;
             check_name(part);
-            if (rename_in_old_file(part) || tree_->by_name.emplace(part.name, named.size()).second) {
-                kinds_.push_back(part.kind);
+            if (rename_in_old_file(part, named) || tree_->by_name.emplace(part.name, named.size()).second) {
                 named.push_back(std::move(draft));
             } else if (!part.name.empty()) {
                 diagnostics().error(
@@ -195,7 +194,7 @@ class TreeReader {
             }
         }
         drafts_ = std::move(named);
-        for (const Draft& draft : drafts_) tree_->parts.push_back(draft.part);
+        for (Draft& draft : drafts_) tree_->parts.push_back(std::move(draft.part));
     }
 
     void check_name(const TreePart& part) {
@@ -215,10 +214,10 @@ class TreeReader {
 
     /// Before SDFormat 1.7 a link, a joint and a frame could share a name: as in Gazebo, the later kind gets
     /// an ending.
-    bool rename_in_old_file(TreePart& part) {
+    bool rename_in_old_file(TreePart& part, const std::vector<Draft>& named) {
         if (version_of(*part.source.source) >= 107 || part.kind == Kind::kModel) return false;
         const auto taken = tree_->by_name.find(part.name);
-        if (taken == tree_->by_name.end() || kinds_[taken->second] == part.kind) return false;
+        if (taken == tree_->by_name.end() || named[taken->second].part.kind == part.kind) return false;
         const std::string base = part.name + "_" + tag_of(part.kind);
         std::string name = base;
         for (int i = 0; tree_->by_name.count(name) > 0; ++i) name = base + std::to_string(i);
@@ -228,7 +227,7 @@ class TreeReader {
                               "Give it a name of its own.");
         if (part.kind == Kind::kLink) part.body = name;
         part.name = name;
-        return tree_->by_name.emplace(name, tree_->by_name.size()).second;
+        return tree_->by_name.emplace(name, named.size()).second;
     }
 
     void resolve() {
@@ -366,9 +365,8 @@ class TreeReader {
     const ElementReader& reader_;
     std::set<std::string>& open_;
     std::unique_ptr<ModelTree> tree_ = std::make_unique<ModelTree>();
-    std::vector<Draft> drafts_;  // from name_parts() on those of tree_->parts
+    std::vector<Draft> drafts_;  // from name_parts() on one for each of tree_->parts, which then has its part
     std::vector<Merged> merged_;
-    std::vector<Kind> kinds_;  // of drafts_
 };
 
 }  // namespace
