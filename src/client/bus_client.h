@@ -69,8 +69,8 @@ class BusClient : public Client {
     const std::string& over() const { return over_; }
     /// It has ended because it could not go on.
     bool failed() const { return failed_; }
-    /// Why the Controller does not take it: the text of an Error; empty: it has not refused it. It asks no
-    /// more.
+    /// The text of the Error with which the Controller refused it; empty: it has not. After a refusal it does
+    /// not ask again.
     const std::string& refusal() const { return refusal_; }
     /// The run has another Model than this one: make another BusClient with that.
     bool outdated() const { return outdated_; }

@@ -106,19 +106,19 @@ Refusal decode_refusal(std::span<const std::uint8_t> bytes) {
     return {harmless(refusal.code), harmless(refusal.reason)};
 }
 
-std::vector<std::uint8_t> encode_farewell(const Departure& farewell) {
+std::vector<std::uint8_t> encode_farewell(const RunOver& farewell) {
     wire::Writer a;
     wire::field(a, farewell.failed);
     wire::field(a, farewell.reason);
     return a.take();
 }
 
-Departure decode_farewell(std::span<const std::uint8_t> bytes) {
+RunOver decode_farewell(std::span<const std::uint8_t> bytes) {
     wire::Reader a(bytes);
-    Departure farewell;
+    RunOver farewell;
     wire::field(a, farewell.failed);
     wire::field(a, farewell.reason);
-    if (a.failed()) return {true, "no reason is given"};
+    if (a.failed()) return {"no reason is given", true};
     farewell.reason = printable(std::string_view(farewell.reason).substr(0, kTextMost));
     return farewell;
 }

@@ -21,7 +21,7 @@ enum class FrameKind : std::uint8_t {
     kPiece = 6,   ///< some of a long one; more follows
     kLast = 7,    ///< the end of it
     kOwn = 8,     ///< an address of the caller, so that it is reached before it has sent anything
-    kOver = 9,    ///< a Departure: the process ends, and with the Controller's the run
+    kOver = 9,    ///< a farewell: the process ends, and with the Controller's the run
 };
 
 /// Content of a frame, at most.
@@ -74,12 +74,8 @@ struct Refusal {
 std::vector<std::uint8_t> encode_refusal(const Refusal& refusal);
 Refusal decode_refusal(std::span<const std::uint8_t> bytes);
 
-/// Why a process ends.
-struct Departure {
-    bool failed = false;
-    std::string reason;
-};
-std::vector<std::uint8_t> encode_farewell(const Departure& farewell);
-Departure decode_farewell(std::span<const std::uint8_t> bytes);
+/// A process ends, and with the Controller's the run.
+std::vector<std::uint8_t> encode_farewell(const RunOver& farewell);
+RunOver decode_farewell(std::span<const std::uint8_t> bytes);
 
 }  // namespace roboss

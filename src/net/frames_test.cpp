@@ -32,7 +32,7 @@ std::vector<std::uint8_t> content_of(FrameKind kind, std::mt19937_64& random) {
         case FrameKind::kOwn:
             return encode_address({Role::kClient, random()});
         case FrameKind::kOver:
-            return encode_farewell({true, "its duration was over"});
+            return encode_farewell({"its duration was over", true});
         default:
             return noise(random, 300);
     }
@@ -117,7 +117,7 @@ TEST(Frames, ContentsSurviveTheirBytes) {
     ASSERT_TRUE(hello.ok());
     EXPECT_EQ(hello.value().simulation, "city");
     EXPECT_EQ(hello.value().name, "node7/4711");
-    const Departure over = decode_farewell(encode_farewell({true, "no fuel\n  remedy: fill it up"}));
+    const RunOver over = decode_farewell(encode_farewell({"no fuel\n  remedy: fill it up", true}));
     EXPECT_TRUE(over.failed);
     EXPECT_EQ(over.reason, "no fuel\n  remedy: fill it up");
     EXPECT_EQ(decode_refusal(encode_refusal({"a", "b"})).reason, "b");

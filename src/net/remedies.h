@@ -1,4 +1,4 @@
-// What a refused process can do, by the code of the refusal.
+// Remedies for a refused process, by the code of the refusal.
 #pragma once
 
 #include <string>

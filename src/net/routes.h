@@ -20,7 +20,7 @@ class Routes {
     /// `peer` uses this address. Null: it may, and nothing has changed, or it owns the address now
     /// (`is_new`). Else why it may not.
     const char* claim(const Peer& peer, const Address& from, bool& is_new);
-    /// Of a member: accepted by the Controller, to which all addresses lead that nobody else owns.
+    /// A member's connection to the Controller. Every address without an owner leads there.
     void set_controller(const Peer& peer);
     /// It leads nowhere any more. The answer: the addresses that it led to.
     std::set<Address> forget(const Peer& peer);

@@ -13,7 +13,7 @@ struct RunKeys {
     Credentials controller, member;
 };
 
-/// Of an authority that is forgotten at once.
+/// Keys of a new authority, whose own key is not kept.
 Result<RunKeys> new_run_keys(const std::string& simulation);
 
 }  // namespace roboss

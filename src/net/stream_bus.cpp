@@ -90,13 +90,17 @@ std::optional<Error> StreamBus::refusal() const {
     return network_->switchboard->refusal();
 }
 
-std::optional<RunEnd> StreamBus::run_end() const {
-    const std::optional<Departure> said = network_->switchboard->farewell();
-    return said ? std::optional(RunEnd{said->reason, said->failed}) : std::nullopt;
+std::optional<RunOver> StreamBus::run_end() const {
+    return network_->switchboard->farewell();
 }
 
-void StreamBus::say_farewell(const RunEnd& end) {
-    network_->switchboard->say_farewell({end.failed, end.reason});
+std::optional<RunOver> StreamBus::run_end_after_turn() {
+    std::optional<RunOver> end = run_end();
+    return std::exchange(end_seen_, end.has_value()) ? std::move(end) : std::nullopt;
+}
+
+void StreamBus::say_farewell(const RunOver& end) {
+    network_->switchboard->say_farewell(end);
 }
 
 bool StreamBus::flush(std::int64_t ms_max) {

@@ -14,12 +14,6 @@
 
 namespace roboss {
 
-/// Why there is nothing more to be expected of the other end.
-struct RunEnd {
-    std::string reason;
-    bool failed = false;
-};
-
 class StreamBus : public Bus {
   public:
     /// The Controller's process. An Error says which option does not fit this computer, that the port is
@@ -48,12 +42,15 @@ class StreamBus : public Bus {
     std::optional<std::int64_t> heard_ms(const Address& address) const;
     /// Of a member: why the Controller does not take it. It tries no more.
     std::optional<Error> refusal() const;
-    /// Of a member: the run is over, as the Controller said before it ended; nothing: it has not, or another
-    /// run has begun.
-    std::optional<RunEnd> run_end() const;
+    /// For a member: the end of the run, as the Controller announced it. Nothing while the run lasts, and
+    /// once another run has begun.
+    std::optional<RunOver> run_end() const;
+    /// The same, from the second call on: between two calls a role takes the messages that came before the
+    /// end.
+    std::optional<RunOver> run_end_after_turn();
     /// Says to all who are connected, and to those who were silent for so long that they count as lost, why
     /// this process ends; of the Controller's process: why the run does.
-    void say_farewell(const RunEnd& end);
+    void say_farewell(const RunOver& end);
     /// Waits until the other computers have received all that was sent, at most so long. To be called before
     /// a process ends.
     bool flush(std::int64_t ms_max);
@@ -66,6 +63,7 @@ class StreamBus : public Bus {
     class Network;
     explicit StreamBus(std::unique_ptr<Network> network);
     std::unique_ptr<Network> network_;
+    bool end_seen_ = false;  // of run_end_after_turn()
 };
 
 /// How messages and errors name a run's network: "simulation 'default' (at 192.0.2.7:7117)".

@@ -1,4 +1,4 @@
-// How it begins; frames, messages and their ways; what others may ask.
+// Start and end of the Switchboard, frames, messages and their routes, and its state for others.
 #include "net/switchboard.h"
 
 #include <fcntl.h>
@@ -198,12 +198,12 @@ std::optional<Error> Switchboard::refusal() const {
     return refusal_;
 }
 
-std::optional<Departure> Switchboard::farewell() const {
+std::optional<RunOver> Switchboard::farewell() const {
     const std::lock_guard lock(mutex_);
     return farewell_;
 }
 
-void Switchboard::say_farewell(const Departure& farewell) {
+void Switchboard::say_farewell(const RunOver& farewell) {
     const std::vector<std::uint8_t> bytes = encode_farewell(farewell);
     const std::lock_guard lock(mutex_);
     for (const Peer& peer : peers_)

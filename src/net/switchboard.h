@@ -43,9 +43,9 @@ class Switchboard {
 
     bool reaches(const Address& address) const { return routes_.leads_to(address); }
     std::optional<Error> refusal() const;
-    /// What the Controller said when it ended; nothing: it has not, or another one is there.
-    std::optional<Departure> farewell() const;
-    void say_farewell(const Departure& farewell);
+    /// The farewell of the Controller. Nothing before it, and once another Controller is there.
+    std::optional<RunOver> farewell() const;
+    void say_farewell(const RunOver& farewell);
     bool all_sent() const;
     std::vector<std::string> take_notices();
     std::string where() const;
@@ -79,7 +79,7 @@ class Switchboard {
     void closed(Connection& peer, const std::string& reason);
     void report_trouble(const std::string& what);
 
-    // switchboard_time.cpp: what happens by time alone
+    // switchboard_time.cpp: work by the clock
     void tick();
     void look_after(const Peer& peer, std::int64_t now_ms);
     void lose(const Peer& peer);
@@ -98,7 +98,7 @@ class Switchboard {
     std::set<Peer> peers_;
     std::vector<std::string> notices_;
     std::optional<Error> refusal_;
-    std::optional<Departure> farewell_;
+    std::optional<RunOver> farewell_;
     std::string where_, trouble_;
 };
 

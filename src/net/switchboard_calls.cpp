@@ -124,7 +124,6 @@ void Switchboard::call() {
                                    connect(thread_->caller.release(), thread_->calling_with);
                                    return;
                                }
-                               thread_->calling = false;
                                report_trouble("no Controller answers at " + at + ": " + error.message());
                            });
 }
@@ -190,7 +189,7 @@ void Switchboard::ready(Connection& peer) {
 }
 
 void Switchboard::take_farewell(Connection& peer, const Frame& frame) {
-    Departure farewell = decode_farewell(frame.content);
+    RunOver farewell = decode_farewell(frame.content);
     if (!member_) {
         notice(peer.who() + " ends: " + farewell.reason + " [left]");
         return peer.close("it has ended");

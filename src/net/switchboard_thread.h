@@ -1,4 +1,4 @@
-// What the Switchboard's own thread has; for its source files alone.
+// The state of the Switchboard's own thread. Only its source files include this.
 #pragma once
 
 #include <boost/asio/executor_work_guard.hpp>
@@ -25,7 +25,7 @@ struct Switchboard::Thread {
     boost::asio::steady_timer turn{context}, rest{context};
     std::int64_t turned_ms = 0;
 
-    // Of the Controller.
+    // The Controller uses these:
     Tcp::acceptor acceptor{context};
     std::shared_ptr<const TlsContext> tls;
     std::optional<MeetingPlace> meeting;
@@ -34,7 +34,7 @@ struct Switchboard::Thread {
     std::int64_t judged_ms = 0;  // when the list of revoked keys was looked at
     std::filesystem::file_time_type revoked_changed{};
 
-    // Of a member.
+    // A member uses these:
     Tcp::socket caller{context};
     std::shared_ptr<const TlsContext> calling_with;
     std::int64_t called_ms = 0, retry_ms = kRetry_ms, next_call_ms = 0;

@@ -1,5 +1,4 @@
-// What happens by time alone: silence is found out, heartbeats are sent, calls are repeated, keys are judged
-// again.
+// Work by the clock: silence is noticed, heartbeats are sent, calls are repeated, keys are checked again.
 #include <algorithm>
 #include <chrono>
 

@@ -40,8 +40,7 @@ class Patience {
         bus_.wait(kTurn_ms);
         if (!go_on()) return interrupted();
         if (std::optional<Error> refusal = bus_.refusal()) return *refusal;
-        const std::optional<RunEnd> ended = bus_.run_end();
-        if (std::exchange(end_seen_, ended.has_value()) && ended)
+        if (const std::optional<RunOver> ended = bus_.run_end_after_turn())
             return Error{"the run is over: " + ended->reason, "connect to another one", "run-over"};
         const std::int64_t now = bus_.now_ms();
         if (bus_.present(kControllerAddress)) seen_ms_ = now;
@@ -53,7 +52,6 @@ class Patience {
     StreamBus& bus_;
     const RemoteOptions& o_;
     std::int64_t seen_ms_;
-    bool end_seen_ = false;  // what was sent before it is to be taken first
 };
 
 }  // namespace

@@ -174,10 +174,10 @@ const std::vector<RobotState>& Simulation::states() {
     return *controller_.states();
 }
 
-bool Simulation::states_within(std::chrono::milliseconds patience) {
+bool Simulation::states_within(std::int64_t ms_max) {
     if (controller_.states() == nullptr) controller_.request_states();
-    const auto end = std::chrono::steady_clock::now() + patience;
-    turn_until([&] { return controller_.states() != nullptr || std::chrono::steady_clock::now() > end; });
+    const std::int64_t end_ms = bus_->now_ms() + ms_max;
+    turn_until([&] { return controller_.states() != nullptr || bus_->now_ms() > end_ms; });
     return controller_.states() != nullptr;
 }
 

@@ -3,7 +3,6 @@
 // their own processes.
 #pragma once
 
-#include <chrono>
 #include <functional>
 #include <map>
 #include <memory>
@@ -82,7 +81,7 @@ class Simulation {
     std::vector<JointReaction> joint_reactions(RobotId robot) { return probe().joint_reactions(robot); }
     /// True when states() are here, after a wait of at most this long: the Simulators of a run that failed
     /// may be gone, and the states with them.
-    bool states_within(std::chrono::milliseconds patience);
+    bool states_within(std::int64_t ms_max);
     /// Everything needed to continue exactly.
     SavedRun saved_run();
     /// Writes saved_run() to a file. An Error if that fails.
@@ -128,7 +127,7 @@ class Simulation {
     void dismiss(const RunOver& over) { controller_.dismiss(*bus_, over); }
 
     // --- how the run is distributed, for display
-    /// Whose answer or arrival the world waits for; empty: nobody's.
+    /// The members for whom the world waits, in words; empty: none.
     std::string waits_for() const { return controller_.waits_for(); }
     /// All Simulators and Clients that the first window waits for have joined.
     bool started() const { return controller_.started(); }

@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "app/commands/exit_codes.h"
+#include "app/output/say.h"
 #include "app/processes/private_folder.h"
 #include "app/processes/threads.h"
 #include "app/worlds/examples.h"
@@ -196,15 +197,14 @@ void print_text(const std::vector<Item>& items) {
     constexpr int kNameColumn = 17;
     int problems = 0;
     for (const Item& item : items) {
-        fmt::print("{:{}}{}\n", item.name, kNameColumn, item.value);
+        say("{:{}}{}\n", item.name, kNameColumn, item.value);
         if (item.problem.empty()) continue;
         ++problems;
-        fmt::print("{:{}}WRONG: {}\n{:{}}remedy: {}\n", "", kNameColumn, item.problem, "", kNameColumn,
-                   item.remedy);
+        say("{:{}}WRONG: {}\n{:{}}remedy: {}\n", "", kNameColumn, item.problem, "", kNameColumn, item.remedy);
     }
-    fmt::print("\n{}\n", problems == 0   ? "Nothing is wrong."
-                         : problems == 1 ? "One thing is wrong, see above."
-                                         : fmt::format("{} things are wrong, see above.", problems));
+    say("\n{}\n", problems == 0   ? "Nothing is wrong."
+                  : problems == 1 ? "One thing is wrong, see above."
+                                  : fmt::format("{} things are wrong, see above.", problems));
 }
 
 void print_json(const std::vector<Item>& items) {
@@ -214,7 +214,7 @@ void print_json(const std::vector<Item>& items) {
         entry = {{"name", item.name}, {"value", item.value}};
         if (!item.problem.empty()) entry.update({{"problem", item.problem}, {"remedy", item.remedy}});
     }
-    fmt::print("{}\n", printed.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
+    say("{}\n", printed.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/commands/exit_codes.h"
+#include "app/output/say.h"
 #include "app/run/run.h"
 #include "app/worlds/examples.h"
 
@@ -29,9 +30,8 @@ int print_examples(bool json) {
     if (!json) {
         std::size_t width = 0;
         for (const Example& example : all.value()) width = std::max(width, example.name.size());
-        for (const Example& example : all.value())
-            fmt::print("{:{}}  {}\n", example.name, width, example.summary);
-        fmt::print("\nroboss run example:{} runs the first of them.\n", all.value().front().name);
+        for (const Example& example : all.value()) say("{:{}}  {}\n", example.name, width, example.summary);
+        say("\nroboss run example:{} runs the first of them.\n", all.value().front().name);
         return kSuccess;
     }
     nlohmann::ordered_json printed = nlohmann::ordered_json::array();
@@ -44,7 +44,7 @@ int print_examples(bool json) {
                            {"orders", example.orders.string()},
                            {"programs", programs}});
     }
-    fmt::print("{}\n", printed.dump(2));
+    say("{}\n", printed.dump(2));
     return kSuccess;
 }
 

@@ -71,9 +71,7 @@ bool Member::wait() {
     for (const std::string& line : bus_->take_notices()) report(line);
     exit_code_ = kBadInput;
     if (const std::optional<Error> refusal = bus_->refusal()) return report_error(*refusal), false;
-    // What the Controller sent before it ended is to be taken first, in the next turn of the role.
-    const std::optional<RunEnd> ended = bus_->run_end();
-    if (std::exchange(end_seen_, ended.has_value()) && ended && !o_.stay)
+    if (const std::optional<RunOver> ended = bus_->run_end_after_turn(); ended && !o_.stay)
         return exit_code_ = end(*ended), false;
     exit_code_ = kSuccess;
     const std::int64_t now = bus_->now_ms();
@@ -105,7 +103,7 @@ void Member::report_absence(double patience_s) {
                   "no-controller"});
 }
 
-int Member::end(const RunEnd& end) {
+int Member::end(const RunOver& end) {
     if (!end.failed) return report("the run is over: " + end.reason), kSuccess;
     report_error(error_of_text("the run has failed: ", end.reason, "see the Controller", "run-failed"));
     return kRunFailed;

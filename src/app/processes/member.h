@@ -41,7 +41,7 @@ class Member {
     /// Once wait() or fetch_model() has failed: 0 if that is since the run is over, or by Ctrl-C.
     int exit_code() const { return exit_code_; }
     /// Reports that the run is over. The answer is the exit code.
-    int end(const RunEnd& end);
+    int end(const RunOver& end);
     /// Says to the Controller, and here, why this process cannot go on.
     void leave_at_once(const Error& why);
     void report(const std::string& line) const;
@@ -53,7 +53,7 @@ class Member {
     const MemberOptions& o_;
     std::unique_ptr<StreamBus> bus_;
     std::int64_t seen_ms_ = 0;  // when a Controller was there last
-    bool was_there_ = false, waiting_reported_ = false, end_seen_ = false;
+    bool was_there_ = false, waiting_reported_ = false;
     int exit_code_ = 0;
 };
 

@@ -16,8 +16,8 @@ class MemoryGuard {
     MemoryGuard(const MemoryGuard&) = delete;
     MemoryGuard& operator=(const MemoryGuard&) = delete;
 
-    /// Why this process has to end; nothing: there is memory. To be asked now and then: every half second it
-    /// looks at the limits of the control group (of a container, say).
+    /// The reason for which this process has to end; nothing while there is memory. Callers ask often: every
+    /// half second it looks at the limits of the control group (of a container, say).
     std::optional<std::string> exceeded();
 
   private:

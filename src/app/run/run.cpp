@@ -478,8 +478,8 @@ Summary Run::summary(double wall_s) const {
 }
 
 Result<> Run::save_end(bool fine) {
-    constexpr std::chrono::seconds kPatience{10};  // for Simulators that may be gone
-    if (!fine && !simulation_->states_within(kPatience))
+    constexpr std::int64_t kPatience_ms = 10'000;  // for Simulators that may be gone
+    if (!fine && !simulation_->states_within(kPatience_ms))
         return Error{"the state at the end is not saved: the Simulators that have it are gone",
                      "continue from the last checkpoint of a --journal", "no-states"};
     return save_run(o_.save, *model_, saved_run());

@@ -133,7 +133,7 @@ std::vector<std::string> RunMembers::take_notices() {
 
 void RunMembers::end(const RunOver& over, bool abandoned) {
     if (open_bus_ == nullptr) return;
-    open_bus_->say_farewell({over.reason, over.failed});
+    open_bus_->say_farewell(over);
     if (!abandoned) open_bus_->flush(1'000);
     processes_.await_exit(abandoned ? 0 : kFarewell_ms);
 }

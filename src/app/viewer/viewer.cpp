@@ -19,6 +19,21 @@ namespace fs = std::filesystem;
 
 constexpr const char* kUrlsOf = ".urls";  // behind the process, in the folder of runs
 
+/// Writes addresses with tokens to a file that only this user can read. The answer: where it is.
+Result<fs::path> keep_secret(const std::vector<std::string>& lines) {
+    const Result<fs::path> folder = run_folder();
+    if (!folder) return folder.error();
+    std::error_code ignored;
+    for (const fs::directory_entry& entry : fs::directory_iterator(folder.value(), ignored))
+        if (entry.path().extension() == kUrlsOf && !is_alive(std::atoi(entry.path().stem().c_str())))
+            fs::remove(entry.path(), ignored);
+    const fs::path file = folder.value() / (std::to_string(getpid()) + kUrlsOf);
+    std::string text;
+    for (const std::string& line : lines) text += line + "\n";
+    if (Result<> written = write_private(file, text); !written) return written.error();
+    return file;
+}
+
 }  // namespace
 
 void add_viewer_options(CLI::App& command, ViewerOptions& o, ViewerDefault by_default) {
@@ -57,25 +72,6 @@ void add_viewer_options(CLI::App& command, ViewerOptions& o, ViewerDefault by_de
             ->excludes(view)
             ->group(group);
 }
-
-namespace {
-
-/// Writes addresses with tokens to a file that only this user can read. The answer: where it is.
-Result<fs::path> keep_secret(const std::vector<std::string>& lines) {
-    const Result<fs::path> folder = run_folder();
-    if (!folder) return folder.error();
-    std::error_code ignored;
-    for (const fs::directory_entry& entry : fs::directory_iterator(folder.value(), ignored))
-        if (entry.path().extension() == kUrlsOf && !is_alive(std::atoi(entry.path().stem().c_str())))
-            fs::remove(entry.path(), ignored);
-    const fs::path file = folder.value() / (std::to_string(getpid()) + kUrlsOf);
-    std::string text;
-    for (const std::string& line : lines) text += line + "\n";
-    if (Result<> written = write_private(file, text); !written) return written.error();
-    return file;
-}
-
-}  // namespace
 
 void print_urls(const Gateway& gateway) {
     std::vector<std::string> lines{"viewer at " + gateway.url()};

@@ -106,7 +106,7 @@ class ClientService {
 
   private:
     ClientSeat* seat_named(const std::string& name);
-    /// Why this caller cannot take part; nothing: it can.
+    /// The reason for which this caller cannot take part; nothing: it can.
     std::optional<Error> objection_to(const Address& from, const ClientHello& hello);
     ClientSeat& seat_for(const ClientHello& hello);
     static void sit_down(ClientSeat& seat, const Address& address, const ClientHello& hello, Tick earliest);

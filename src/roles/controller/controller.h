@@ -111,7 +111,7 @@ class Controller {
     std::optional<RunCheckpoint> take_log_checkpoint() { return recorder_.take_checkpoint(); }
     /// The next commit waits for the log.
     bool waits_for_log() const;
-    /// Whose answer or arrival the world waits for now, for people; empty: it waits for nobody.
+    /// The members for whom the world waits now, in words; empty: none.
     std::string waits_for() const;
     std::uint64_t log_needed() const { return recorder_.needed(); }
     /// Logs to `log` from now on, beginning with the orders still to be applied. Only between windows. Null:
