@@ -1,5 +1,5 @@
-"""Who is lost, and what the others hear of it: a Client that dies is succeeded, two of one name are refused; a member that was
-stopped across the end of a run, and one without memory or room, end with the reason; no exit code 0 after a failed run."""
+"""Members that are lost: a Client that dies gets a successor, two of one name are refused; a member that was stopped across the
+end of a run, and one without memory or room, end with the reason; no exit code 0 after a failed run."""
 import os
 import re
 import resource
@@ -12,7 +12,7 @@ from members import DRIVER, FOLDER, WORLDS, Cluster, embedded
 
 CITY = [WORLDS / "city.sdf", "--duration", 1.2, "--seed", 7]
 PILE = [WORLDS / "pile.sdf", "--duration", 1.2]
-SOON_S = 10  # nobody waits for longer without a word
+SOON_S = 10  # every wait is reported within this time
 BAD_INPUT, RUN_FAILED = 1, 3
 
 

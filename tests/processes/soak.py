@@ -5,7 +5,7 @@ that of one process. Not part of the tests: it takes minutes and measures the ma
     tests/processes/soak.py build/release/bin/roboss --processes 64 --times 20
     tests/processes/soak.py build/release/bin/roboss --processes 64 --times 5 --duration 20 --kill 10
 
-With --kill so many of the processes are killed at random moments, and as many others join. It prints the Controller's memory
+With --kill N, N of the processes are killed at random moments, and as many others join. It prints the Controller's memory
 and CPU time for each member.
 """
 import argparse
@@ -82,7 +82,7 @@ class Soak:
         return json.loads(self.summary.read_text())["state_hash"]
 
     def report(self, pid):
-        """What all of them take, and the Controller for each."""
+        """Prints the cost of a process, and that of the Controller for each."""
         pss, threads = memory_of(pid)
         mib, cpu_s = cost_of(pid)
         count = self.options.processes
@@ -118,7 +118,7 @@ def main():
     parser.add_argument("--processes", type=int, default=64)
     parser.add_argument("--times", type=int, default=20)
     parser.add_argument("--within", type=float, default=20, help="until all have joined, s")
-    parser.add_argument("--kill", type=int, default=0, help="so many processes at random moments; others join")
+    parser.add_argument("--kill", type=int, default=0, help="number of processes that are killed at random moments; as many others join")
     parser.add_argument("--world", default=str(WORLDS / "crossroads.sdf"))
     parser.add_argument("--orders", default=str(WORLDS / "crossroads.jsonl"), help="'' for none")
     parser.add_argument("--duration", type=float, default=1.2)
