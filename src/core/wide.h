@@ -9,8 +9,9 @@ namespace roboss {
 
 template <class Half>
 struct TwiceMask {
-    MaskOf<Half> a, b;
+    MaskOf<Half> a{}, b{};
 
+    TwiceMask() = default;
     TwiceMask(const MaskOf<Half>& low, const MaskOf<Half>& high) : a(low), b(high) {}
     TwiceMask(bool all) : a(all), b(all) {}  // NOLINT: a bool serves all lanes
     friend TwiceMask operator&(const TwiceMask& x, const TwiceMask& y) { return {x.a & y.a, x.b & y.b}; }
