@@ -29,6 +29,15 @@ double fixed_log(double x);              // x > 0 and normal; otherwise the resu
 
 double fixed_exp(double x);  // argument clamped to -700 .. 700
 
+/// As std::fmax and std::fmin, which disagree between processors about the sign of zero: of equals the
+/// first; of a number and what is none the number.
+inline double fixed_max(double a, double b) {
+    return b > a || std::isnan(a) ? b : a;
+}
+inline double fixed_min(double a, double b) {
+    return b < a || std::isnan(a) ? b : a;
+}
+
 /// The same angle in (-pi, pi].
 double wrap_angle(double angle_rad);
 
@@ -64,11 +73,11 @@ T cos_kernel(const T& x) {
     return w + (((1.0 - w) - half) + z * r);
 }
 
-/// n mod 4 of a whole number.
+/// n mod 4 of a whole number. Those too large for an integer are multiples of 4.
 template <class T>
 T mod_4(const T& n) {
     if constexpr (std::is_same_v<T, double>)
-        return static_cast<double>(static_cast<std::int64_t>(n) & 3);
+        return std::fabs(n) < 0x1p62 ? static_cast<double>(static_cast<std::int64_t>(n) & 3) : 0.0;
     else
         return n - 4.0 * floor(n * 0.25);  // exact
 }

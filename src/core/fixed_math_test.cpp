@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 
 namespace roboss {
 namespace {
@@ -66,6 +67,35 @@ TEST(FixedMath, AsinAcosClampAndInvert) {
     }
     EXPECT_DOUBLE_EQ(fixed_asin(1.5), kPi / 2);
     EXPECT_DOUBLE_EQ(fixed_acos(-1.5), kPi);
+}
+
+/// Their quadrant is no integer that a processor has, and processors disagree about what a conversion gives.
+TEST(FixedMath, AnglesBeyondAllIntegersHaveTheFirstQuadrant) {
+    for (const double n :
+         {0x1p62, 0x1p63, 0x1p70, 1e300, std::numeric_limits<double>::infinity(), std::nan("")}) {
+        EXPECT_EQ(fixed::mod_4(n), 0.0) << n;
+        EXPECT_EQ(fixed::mod_4(-n), 0.0) << -n;
+    }
+    EXPECT_EQ(fixed::mod_4(0x1p53 + 6), 2.0);
+    EXPECT_EQ(fixed::mod_4(-1.0), 3.0);
+}
+
+TEST(FixedMath, OfEqualZerosTheFirstIsTheLargestAndTheSmallest) {
+    volatile double zero = 0.0, nan = std::nan("");
+    for (const double first : {zero, -zero})
+        for (const double second : {zero, -zero}) {
+            EXPECT_EQ(std::signbit(fixed_max(first, second)), std::signbit(first));
+            EXPECT_EQ(std::signbit(fixed_min(first, second)), std::signbit(first));
+        }
+    EXPECT_EQ(fixed_max(-2, 3), 3);
+    EXPECT_EQ(fixed_min(-2, 3), -2);
+    for (const double x : {-1.5, zero, 2.0}) {
+        EXPECT_EQ(fixed_max(nan, x), x);
+        EXPECT_EQ(fixed_max(x, nan), x);
+        EXPECT_EQ(fixed_min(nan, x), x);
+        EXPECT_EQ(fixed_min(x, nan), x);
+    }
+    EXPECT_TRUE(std::isnan(fixed_max(nan, nan)));
 }
 
 TEST(FixedMath, WrapAngleStaysInHalfOpenRange) {

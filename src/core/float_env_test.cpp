@@ -7,6 +7,8 @@
 #include <cfenv>
 #include <limits>
 
+#include <support/float_control.h>
+
 namespace roboss {
 namespace {
 
@@ -31,11 +33,9 @@ TEST(ExactFloatScope, RoundsToNearestInsideAndRestoresOutside) {
     EXPECT_EQ(after, upward);
 }
 
-#if defined(__x86_64__)
 TEST(ExactFloatScope, KeepsTinyNumbersThatAPluginSetToBeFlushed) {
-    constexpr unsigned kFlushToZero = 0x8000, kDenormalsAreZero = 0x0040;
-    const unsigned before = _mm_getcsr();
-    _mm_setcsr(before | kFlushToZero | kDenormalsAreZero);
+    const std::uint64_t before = test::float_control();
+    test::set_float_control(before | test::kFlushTinyNumbers);
     const double smallest_normal = std::numeric_limits<double>::min();
     const double flushed = quotient(smallest_normal, 4);
     double kept = 0;
@@ -43,13 +43,12 @@ TEST(ExactFloatScope, KeepsTinyNumbersThatAPluginSetToBeFlushed) {
         const ExactFloatScope scope;
         kept = quotient(smallest_normal, 4);
     }
-    const unsigned restored = _mm_getcsr();
-    _mm_setcsr(before);
+    const std::uint64_t restored = test::float_control();
+    test::set_float_control(before);
     EXPECT_EQ(flushed, 0.0);
     EXPECT_GT(kept, 0.0);
-    EXPECT_EQ(restored & (kFlushToZero | kDenormalsAreZero), kFlushToZero | kDenormalsAreZero);
+    EXPECT_EQ(restored & test::kFlushTinyNumbers, test::kFlushTinyNumbers);
 }
-#endif
 
 }  // namespace
 }  // namespace roboss

@@ -1,5 +1,6 @@
-// Doubles beside floats: as many lanes of doubles as there are lanes of floats, in two registers. What has
-// to keep its digits (places in the world, the state itself) stays in these.
+// Lanes in several registers, each like the one before it (Twice). Doubles beside floats are such: as many
+// lanes of doubles as there are lanes of floats. What has to keep its digits (places in the world, the state
+// itself) stays in these.
 #pragma once
 
 #include "core/single.h"
@@ -8,8 +9,9 @@ namespace roboss {
 
 template <class Half>
 struct TwiceMask {
-    MaskOf<Half> a, b;
+    MaskOf<Half> a{}, b{};
 
+    TwiceMask() = default;
     TwiceMask(const MaskOf<Half>& low, const MaskOf<Half>& high) : a(low), b(high) {}
     TwiceMask(bool all) : a(all), b(all) {}  // NOLINT: a bool serves all lanes
     friend TwiceMask operator&(const TwiceMask& x, const TwiceMask& y) { return {x.a & y.a, x.b & y.b}; }
@@ -78,6 +80,11 @@ struct FloatTraits<Lanes<float, kLanes, Isa>> {
     static constexpr bool kIsFloat = true;
     using Wide = Twice<Lanes<double, kLanes / 2, Isa>>;
 };
+template <class Half>
+struct FloatTraits<Twice<Half>> {
+    static constexpr bool kIsFloat = FloatTraits<Half>::kIsFloat;
+    using Wide = Twice<typename FloatTraits<Half>::Wide>;
+};
 template <class T>
 inline constexpr bool kIsFloat = FloatTraits<T>::kIsFloat;
 template <class T>
@@ -85,11 +92,22 @@ using WideOf = typename FloatTraits<T>::Wide;
 
 /// Doubles to floats, each rounded to the nearest.
 template <class T>
+struct Narrowing {
+    static T of(const WideOf<T>& x) { return T(T::Set::join(x.a.x, x.b.x)); }
+};
+template <>
+struct Narrowing<Single> {
+    static Single of(double x) { return Single(x); }
+};
+template <class Half>
+struct Narrowing<Twice<Half>> {
+    static Twice<Half> of(const WideOf<Twice<Half>>& x) {
+        return {Narrowing<Half>::of(x.a), Narrowing<Half>::of(x.b)};
+    }
+};
+template <class T>
 T narrow(const WideOf<T>& x) {
-    if constexpr (std::is_same_v<T, Single>)
-        return Single(x);
-    else
-        return T(T::Set::join(x.a.x, x.b.x));
+    return Narrowing<T>::of(x);
 }
 
 inline double widen(Single x) {
@@ -99,6 +117,10 @@ template <int kLanes, class Isa>
 Twice<Lanes<double, kLanes / 2, Isa>> widen(const Lanes<float, kLanes, Isa>& x) {
     using Half = Lanes<double, kLanes / 2, Isa>;
     return {Half(Isa::low(x.x)), Half(Isa::high(x.x))};
+}
+template <class Half>
+WideOf<Twice<Half>> widen(const Twice<Half>& x) {
+    return {widen(x.a), widen(x.b)};
 }
 
 }  // namespace roboss

@@ -6,6 +6,7 @@
 #include <map>
 #include <string>
 
+#include "core/fixed_math.h"
 #include "core/hash.h"
 #include "geometry/convex_hull.h"
 
@@ -354,8 +355,8 @@ Result<ConvexHull> build_hull(std::span<const Vec3> points) {
     for (const Vec3& p : points) {
         if (!is_finite(p) || norm(p) > 1e9)
             return Error{"a point is not finite or beyond all sizes", "Correct it."};
-        low = {std::fmin(low.x, p.x), std::fmin(low.y, p.y), std::fmin(low.z, p.z)};
-        high = {std::fmax(high.x, p.x), std::fmax(high.y, p.y), std::fmax(high.z, p.z)};
+        low = {fixed_min(low.x, p.x), fixed_min(low.y, p.y), fixed_min(low.z, p.z)};
+        high = {fixed_max(high.x, p.x), fixed_max(high.y, p.y), fixed_max(high.z, p.z)};
     }
     const double tolerance = kFlat * norm(high - low);
     QuickHull quick(points, tolerance);

@@ -5,6 +5,8 @@
 
 #include <algorithm>
 
+#include "core/fixed_math.h"
+
 namespace roboss {
 namespace {
 
@@ -117,8 +119,8 @@ bool Bvh::meets(const Aabb& box, const Vec3& origin, const Vec3& direction, doub
             continue;
         }
         const double a = low / direction[k], b = high / direction[k];
-        enter = std::fmax(enter, std::fmin(a, b));
-        leave = std::fmin(leave, std::fmax(a, b));
+        enter = fixed_max(enter, fixed_min(a, b));
+        leave = fixed_min(leave, fixed_max(a, b));
     }
     return enter <= leave;
 }

@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "core/fixed_math.h"
 #include "math/aabb.h"
 
 namespace roboss {
@@ -114,7 +115,7 @@ double Bvh::nearest(const Vec3& origin, const Vec3& direction, double limit, Dis
             continue;
         }
         for (std::uint32_t i = node.first; i < node.first + node.count; ++i)
-            limit = std::fmin(limit, distance_to(items_[i]));
+            limit = fixed_min(limit, distance_to(items_[i]));
     }
     return limit;
 }

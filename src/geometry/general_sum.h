@@ -2,6 +2,7 @@
 // symmetry: s(n) = n.c - h_A(-n) - h_B(n) of the cores; the balls are taken off by the caller.
 #pragma once
 
+#include "core/fixed_math.h"
 #include "geometry/convex_body.h"
 #include "geometry/convex_sum.h"
 
@@ -14,8 +15,8 @@ class GeneralSum {
     GeneralSum(const ConvexBody& first, const ConvexBody& second);
 
     const Vec3& centre() const { return centre_; }
-    double inradius() const { return std::fmax(a_->inradius(), b_->inradius()); }
-    double scale() const { return std::fmin(a_->size(), b_->size()); }
+    double inradius() const { return fixed_max(a_->inradius(), b_->inradius()); }
+    double scale() const { return fixed_min(a_->size(), b_->size()); }
     bool curved() const { return a_->curved() || b_->curved(); }
     double apart_gap() const { return 1e-12; }
     double overlap_gap() const { return curved() ? 1e-4 : 1e-9; }

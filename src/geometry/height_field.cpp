@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "core/check.h"
+#include "core/fixed_math.h"
 #include "core/hash.h"
 
 namespace roboss {
@@ -142,7 +143,7 @@ bool HeightField::tops(std::uint32_t number, std::size_t corner, const Vec3& d, 
 double HeightField::ray_in_cell(std::size_t i, std::size_t j, const Vec3& origin,
                                 const Vec3& direction) const {
     const Vec3 a = point(i, j), b = point(i + 1, j), c = point(i + 1, j + 1), d = point(i, j + 1);
-    return std::fmin(ray_triangle(origin, direction, {a, b, c}), ray_triangle(origin, direction, {a, c, d}));
+    return fixed_min(ray_triangle(origin, direction, {a, b, c}), ray_triangle(origin, direction, {a, c, d}));
 }
 
 // From cell to cell along the ray's shadow (Amanatides and Woo, "A Fast Voxel Traversal Algorithm", 1987).
@@ -155,8 +156,8 @@ double HeightField::ray(const Vec3& origin, const Vec3& direction, double limit)
             continue;
         }
         const double a = (low - origin[k]) / direction[k], b = (high - origin[k]) / direction[k];
-        enter = std::fmax(enter, std::fmin(a, b));
-        leave = std::fmin(leave, std::fmax(a, b));
+        enter = fixed_max(enter, fixed_min(a, b));
+        leave = fixed_min(leave, fixed_max(a, b));
     }
     if (enter > leave) return limit;
     const Vec3 p = origin + direction * enter;
@@ -169,13 +170,13 @@ double HeightField::ray(const Vec3& origin, const Vec3& direction, double limit)
     };
     double nearest = limit;
     while (i >= 0 && j >= 0 && i + 1 < static_cast<long>(columns_) && j + 1 < static_cast<long>(rows_)) {
-        nearest = std::fmin(nearest, ray_in_cell(static_cast<std::size_t>(i), static_cast<std::size_t>(j),
+        nearest = fixed_min(nearest, ray_in_cell(static_cast<std::size_t>(i), static_cast<std::size_t>(j),
                                                  origin, direction));
         const double tx =
             crossing(origin.x, direction.x, x0_ + dx_ * static_cast<double>(si > 0 ? i + 1 : i));
         const double ty =
             crossing(origin.y, direction.y, y0_ + dy_ * static_cast<double>(sj > 0 ? j + 1 : j));
-        const double next = std::fmin(tx, ty);
+        const double next = fixed_min(tx, ty);
         if (!(next <= leave) || nearest <= next) break;
         if (tx <= ty)
             i += si;

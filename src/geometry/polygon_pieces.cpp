@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <array>
 
+#include "core/fixed_math.h"
+
 namespace roboss {
 namespace {
 
@@ -19,8 +21,8 @@ class Cutter {
     explicit Cutter(std::vector<Vec3> corners) : p_(std::move(corners)) {
         Vec3 low = p_[0], high = p_[0];
         for (const Vec3& p : p_) {
-            low = {std::fmin(low.x, p.x), std::fmin(low.y, p.y), 0};
-            high = {std::fmax(high.x, p.x), std::fmax(high.y, p.y), 0};
+            low = {fixed_min(low.x, p.x), fixed_min(low.y, p.y), 0};
+            high = {fixed_max(high.x, p.x), fixed_max(high.y, p.y), 0};
         }
         flat_ = 1e-9 * norm_squared(high - low);
     }
@@ -81,8 +83,8 @@ class Cutter {
 
   private:
     static bool boxes_meet(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
-        return std::fmax(a.x, b.x) >= std::fmin(c.x, d.x) && std::fmax(c.x, d.x) >= std::fmin(a.x, b.x) &&
-               std::fmax(a.y, b.y) >= std::fmin(c.y, d.y) && std::fmax(c.y, d.y) >= std::fmin(a.y, b.y);
+        return fixed_max(a.x, b.x) >= fixed_min(c.x, d.x) && fixed_max(c.x, d.x) >= fixed_min(a.x, b.x) &&
+               fixed_max(a.y, b.y) >= fixed_min(c.y, d.y) && fixed_max(c.y, d.y) >= fixed_min(a.y, b.y);
     }
 
     /// Of all ears the one whose shortest side is longest against its others would be best; the first is good

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "core/fixed_math.h"
 #include "geometry/shape_bounds.h"
 #include "geometry/triangle_surface.h"
 
@@ -50,9 +51,9 @@ double bounding_radius(const Shape& shape) {
             return shape.hull->radius;
         case ShapeKind::kSurface: {
             const Aabb& box = shape.surface->box();
-            return norm(Vec3{std::fmax(std::fabs(box.min.x), std::fabs(box.max.x)),
-                             std::fmax(std::fabs(box.min.y), std::fabs(box.max.y)),
-                             std::fmax(std::fabs(box.min.z), std::fabs(box.max.z))});
+            return norm(Vec3{fixed_max(std::fabs(box.min.x), std::fabs(box.max.x)),
+                             fixed_max(std::fabs(box.min.y), std::fabs(box.max.y)),
+                             fixed_max(std::fabs(box.min.z), std::fabs(box.max.z))});
         }
     }
     return kInfinity;

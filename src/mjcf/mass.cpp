@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/fixed_math.h"
 #include "mjcf/principal.h"
 
 namespace roboss::mjcf {
@@ -61,9 +62,9 @@ Solid shell_box(const Vec3& e) {
 
 Solid shell_ellipsoid(const Vec3& r) {
     constexpr double kPower = 1.6075, kThick = 1e-6;
-    const double sum =
-        std::pow(r.x * r.y, kPower) + std::pow(r.y * r.z, kPower) + std::pow(r.z * r.x, kPower);
-    const double area = 4 * kPi * std::pow(sum / 3, 1 / kPower);
+    const auto power = [](double x, double exponent) { return fixed_exp(exponent * fixed_log(x)); };
+    const double sum = power(r.x * r.y, kPower) + power(r.y * r.z, kPower) + power(r.z * r.x, kPower);
+    const double area = 4 * kPi * power(sum / 3, 1 / kPower);
     const Solid inner = solid_ellipsoid(r), outer = solid_ellipsoid(r + Vec3{kThick, kThick, kThick});
     return {area, {}, (outer.inertia - inner.inertia) * (area / (outer.volume - inner.volume))};
 }

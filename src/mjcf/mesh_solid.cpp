@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "core/fixed_math.h"
 #include "geometry/convex_hull.h"
 #include "mjcf/principal.h"
 
@@ -105,7 +106,7 @@ InertiaBox inertia_box(const Solid& solid) {
     const PrincipalAxes axes = principal_axes(solid.inertia);
     const auto& m = axes.moments;
     const auto half = [&](double wide, double deep, double across) {
-        return 0.5 * std::sqrt(std::fmax(0.0, 6 * (wide + deep - across) / solid.volume));
+        return 0.5 * std::sqrt(fixed_max(0.0, 6 * (wide + deep - across) / solid.volume));
     };
     return {{half(m[1], m[2], m[0]), half(m[0], m[2], m[1]), half(m[0], m[1], m[2])}, axes.q};
 }

@@ -34,7 +34,7 @@ double prism_shadow(const GeometrySpec& g, const Vec3& d) {
 /// The hull of an ellipse (the base) and a point (the tip), stretched to a circle. `z`: cosine of the angle
 /// to the axis.
 double cone_shadow(const GeometrySpec& g, double z) {
-    const double r = g.radius, tip = g.length * std::sqrt(std::fmax(0.0, 1.0 - z * z));
+    const double r = g.radius, tip = g.length * std::sqrt(fixed_max(0.0, 1.0 - z * z));
     if (tip <= r * z) return kPi * r * r * z;
     const double share = r * z / tip;  // r / (distance of the tip), stretched
     return r * r * z * (kPi - fixed_acos(share)) + r * tip * std::sqrt(1.0 - share * share);
@@ -44,7 +44,7 @@ double cone_shadow(const GeometrySpec& g, double z) {
 double shadow(const GeometrySpec& g, const Vec3& d) {
     const double x = std::fabs(d.x), y = std::fabs(d.y), z = std::fabs(d.z);
     const double disc = kPi * g.radius * g.radius;
-    const double side = 2.0 * g.radius * g.length * std::sqrt(std::fmax(0.0, 1.0 - z * z));
+    const double side = 2.0 * g.radius * g.length * std::sqrt(fixed_max(0.0, 1.0 - z * z));
     switch (g.kind) {
         case GeometryKind::kBox:
             return x * g.size.y * g.size.z + y * g.size.x * g.size.z + z * g.size.x * g.size.y;

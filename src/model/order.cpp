@@ -8,6 +8,7 @@
 #include <iterator>
 #include <tuple>
 
+#include "core/fixed_math.h"
 #include "world/joint_type.h"
 
 namespace roboss {
@@ -304,7 +305,7 @@ struct Apply {
         MotorSetpoint& motor = state.motors[type.motor_index(joint, a.axis)];
         if (motor.mode != a.mode) motor.impulse = motor.load = 0;
         motor.mode = a.mode, motor.target = a.target;
-        motor.max_effort = a.max_effort < 0 ? bound : std::fmin(a.max_effort, bound);
+        motor.max_effort = a.max_effort < 0 ? bound : fixed_min(a.max_effort, bound);
     }
     void operator()(const SetJointState& a) const {
         const Joint& joint = type.joints[a.joint.index()];

@@ -105,7 +105,7 @@ void run_steering_only(const AckermannSteeringSpec& spec, OnboardContext& c) {
     const double limited =
         limit_speed(spec.angular, c.command(0)[0], c.dt(), memory[AckermannSteeringSpec::kTurnRate],
                     memory[AckermannSteeringSpec::kTurnRate + 1]);
-    const double angle = std::fmax(std::fmin(limited, spec.steering_limit), -spec.steering_limit);
+    const double angle = fixed_max(fixed_min(limited, spec.steering_limit), -spec.steering_limit);
     if (angle != limited) memory[AckermannSteeringSpec::kTurnRate] = angle;
     const SinCos middle = fixed_sincos(angle);
     const double along = 2.0 * spec.wheel_base * middle.cos, across = spec.wheel_separation * middle.sin,

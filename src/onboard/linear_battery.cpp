@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/fixed_math.h"
 #include "onboard/controllers.h"
 
 namespace roboss {
@@ -50,7 +51,7 @@ void switch_over(const LinearBatterySpec& spec, OnboardContext& c, std::span<dou
 /// A, that the loads and the charger ask for.
 double wanted_current(const LinearBatterySpec& spec, OnboardContext& c, std::span<const double> memory) {
     const std::size_t k = spec.power_command();
-    const double own = c.is_commanded(k) ? std::fmax(c.command(k)[0], 0) : spec.power_load;
+    const double own = c.is_commanded(k) ? fixed_max(c.command(k)[0], 0) : spec.power_load;
     double current = 0;
     if (memory[LinearBatterySpec::kDrains] != 0 && memory[LinearBatterySpec::kVoltage] > kNoVoltage)
         current = (own + loads_of_others(spec, c.type())) / memory[LinearBatterySpec::kVoltage];
@@ -78,7 +79,7 @@ void run(const LinearBatterySpec& spec, OnboardContext& c) {
         charge = current = 0;
     } else {
         const double wanted = wanted_current(spec, c, memory);
-        current += std::fmin(c.dt() / spec.smooth_current_tau, 1.0) * (wanted - current);
+        current += fixed_min(c.dt() / spec.smooth_current_tau, 1.0) * (wanted - current);
         if (wanted == 0 && std::fabs(current) < kNoCurrent) current = 0;
         charge = std::clamp(charge - current * c.dt() / kSecondsPerHour, 0.0, spec.capacity);
         if (current != 0 || wanted != 0)

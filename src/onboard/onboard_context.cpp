@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/fixed_math.h"
 #include "model/joint_motion.h"
 #include "model/order.h"
 
@@ -29,7 +30,7 @@ void OnboardContext::drive(std::size_t joint, MotorMode mode, double target, dou
                                                      : kOrderLimits.position;
     if (motor.mode != mode) motor.impulse = motor.load = 0;
     motor.mode = mode, motor.target = std::clamp(target, -most, most);
-    motor.max_effort = std::fmin(std::fabs(max_effort), dof(joint).max_effort);
+    motor.max_effort = fixed_min(std::fabs(max_effort), dof(joint).max_effort);
 }
 
 void OnboardContext::push_joint(std::size_t joint, double effort) {

@@ -56,7 +56,7 @@ double pid(const std::vector<double>& gain, const std::vector<double>& range, do
     double integral = gain[1] * error[0];
     const double low = range.size() == 2 ? range[0] : 0, high = range.size() == 2 ? range[1] : 0;
     if (gain[1] != 0 && (integral > high || integral < low)) {
-        integral = std::fmax(std::fmin(integral, high), low);
+        integral = fixed_max(fixed_min(integral, high), low);
         error[0] = integral / gain[1];
     }
     const double rate = (now - error[1]) / dt;
@@ -68,10 +68,10 @@ double pid(const std::vector<double>& gain, const std::vector<double>& range, do
 void act(const RosAckermannSpec& spec, OnboardContext& c, const Car& car, double period) {
     const std::span<const double> twist = c.command(0);
     const std::span<double> memory = c.memory();
-    const double speed = std::fmax(std::fmin(twist[Twist6::kLinearX], spec.max_speed), -spec.max_speed);
+    const double speed = fixed_max(fixed_min(twist[Twist6::kLinearX], spec.max_speed), -spec.max_speed);
     const double way = twist[Twist6::kLinearX] < 0 ? -1.0 : 1.0;
     const double angle =
-        std::fmax(std::fmin(twist[Twist6::kAngularZ] * way, spec.max_steer), -spec.max_steer);
+        fixed_max(fixed_min(twist[Twist6::kAngularZ] * way, spec.max_steer), -spec.max_steer);
     const SinCos middle = fixed_sincos(angle);
     const double slope = middle.sin / middle.cos, across = 0.5 * car.separation / car.base * slope;
     const double left = fixed_atan2(slope, 1.0 - across), right = fixed_atan2(slope, 1.0 + across);
@@ -100,7 +100,7 @@ void run(const RosAckermannSpec& spec, OnboardContext& c) {
         c.drive(kSteeringWheel, MotorMode::kPosition, mean * spec.max_steering_angle / spec.max_steer);
     }
     // The original's forces last for one step after each update, and so do these.
-    const double period = spec.ros.update_rate > 0 ? std::fmax(1.0 / spec.ros.update_rate, c.dt()) : c.dt();
+    const double period = spec.ros.update_rate > 0 ? fixed_max(1.0 / spec.ros.update_rate, c.dt()) : c.dt();
     if (c.time() < memory[RosAckermannSpec::kNextUpdate] - 1e-9) return;
     memory[RosAckermannSpec::kNextUpdate] = c.time() + period;
     act(spec, c, car, period);

@@ -1,6 +1,7 @@
 // See onboard_kinds/ros_diff_drive.h.
 #include <cmath>
 
+#include "core/fixed_math.h"
 #include "onboard/controllers.h"
 #include "onboard/wheel_odometry.h"
 
@@ -45,7 +46,7 @@ void run(const RosDiffDriveSpec& spec, OnboardContext& c) {
         for (const std::size_t side : {0u, 1u}) {
             double& rim = rims[2 * pair + side];
             const double wanted = twist[Twist6::kLinearX] + (side == 0 ? -across : across);
-            rim = std::fmax(std::fmin(wanted, rim + step), rim - step);
+            rim = fixed_max(fixed_min(wanted, rim + step), rim - step);
             c.drive(pair + side * pairs, MotorMode::kVelocity, rim / (0.5 * spec.diameter(pair)),
                     spec.torque);
         }

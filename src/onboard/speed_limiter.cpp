@@ -4,12 +4,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/fixed_math.h"
+
 namespace roboss {
 namespace {
 
 /// As Gazebo has it: if the bounds cross, the lower one counts.
 double clamped(double x, double low, double high) {
-    return std::fmax(std::fmin(x, high), low);
+    return fixed_max(fixed_min(x, high), low);
 }
 
 /// The largest acceleration towards a speed that is `gap` away (m/s) from which a jerk of size `jerk` brings

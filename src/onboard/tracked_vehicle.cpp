@@ -1,6 +1,7 @@
 // See onboard_kinds/tracked_vehicle.h.
 #include <cmath>
 
+#include "core/fixed_math.h"
 #include "onboard/controllers.h"
 #include "onboard/speed_limiter.h"
 #include "onboard/wheel_odometry.h"
@@ -16,7 +17,7 @@ Vec3 centre_of_rotation(const TrackedVehicleSpec& spec, OnboardContext& c, doubl
     const LinkId body = spec.body.empty() ? c.info().base : c.link(c.link_count() - 1);
     const Transform X_WL = c.pose(body);
     const double radius = std::fabs(turn) < kSmall ? kFar : std::fabs(speed) < kSmall ? 0.0 : speed / turn;
-    return X_WL.p + X_WL.R * Vec3{0, std::fmax(std::fmin(radius, kFar), -kFar), 0};
+    return X_WL.p + X_WL.R * Vec3{0, fixed_max(fixed_min(radius, kFar), -kFar), 0};
 }
 
 /// Whether a command came since it was asked last; notes that it was seen.

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "core/fixed_math.h"
 #include "math/pose.h"
 #include "onboard_kinds/kind.h"
 
@@ -46,8 +47,8 @@ struct AudioSource {
     std::string name() const { return "source_" + std::to_string(id); }
     /// Volume at a distance in m, while it plays.
     double volume_at(double distance) const {
-        const double full = std::fmin(std::fmax(volume_level, 0.0), 1.0),
-                     inner = std::fmax(inner_radius, 0.0);
+        const double full = fixed_min(fixed_max(volume_level, 0.0), 1.0),
+                     inner = fixed_max(inner_radius, 0.0);
         const double outer = falloff_distance > inner ? falloff_distance : inner + 1;  // as in Gazebo
         if (distance <= inner) return full;
         return distance >= outer ? 0.0 : full * (outer - distance) / (outer - inner);

@@ -22,7 +22,7 @@ double measured(double distance, const LaserSpec& spec, const SensorNoise& noise
     if (distance > spec.range_max) return kInfinity;
     if (distance < spec.range_min) return -kInfinity;
     const double noisy = rounded_to(noise(distance, beam), spec.range_resolution);
-    return std::fmin(std::fmax(noisy, spec.range_min), spec.range_max);
+    return fixed_min(fixed_max(noisy, spec.range_min), spec.range_max);
 }
 
 }  // namespace

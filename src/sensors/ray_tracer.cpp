@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/fixed_math.h"
 #include "geometry/triangle_surface.h"
 #include "sensors/ray_lanes.h"
 
@@ -49,8 +50,8 @@ double enter_cube(const Vec3& o, const Vec3& d, double half) {
             continue;
         }
         const double a = (-half - o[i]) / d[i], b = (half - o[i]) / d[i];
-        enter = std::fmax(enter, std::fmin(a, b));
-        leave = std::fmin(leave, std::fmax(a, b));
+        enter = fixed_max(enter, fixed_min(a, b));
+        leave = fixed_min(leave, fixed_max(a, b));
     }
     return enter <= leave ? enter : kInfinity;
 }

@@ -13,8 +13,8 @@
 
 namespace roboss::test {
 
-inline constexpr std::size_t kWidths[] = {4, 8};
-inline constexpr std::size_t kFloatWidths[] = {8, 16};
+inline constexpr std::size_t kWidths[] = {2, 4, 8};
+inline constexpr std::size_t kFloatWidths[] = {4, 8, 16};
 
 /// Skips what this processor cannot do; the rest of the test then compares scalar with scalar.
 inline bool has_lanes(Precision precision, std::size_t width) {

@@ -80,6 +80,27 @@ class CheckBuilds(unittest.TestCase):
         self.list.write_text("# nothing\n")
         self.assertEqual(self.run_tool()[0], 1)
 
+    def test_short_plays_only_worlds_that_are_stepped_in_a_moment(self):
+        self.list.write_text("aaaa worlds/scouts.sdf --lanes 1\naaaa worlds/heap.sdf\naaaa worlds/joints.sdf\n")
+        code, output = self.run_tool("--short", "release")
+        self.assertEqual((code, [line.split()[3] for line in output.splitlines()[:-1]]), (0, ["worlds/scouts.sdf", "worlds/joints.sdf"]))
+        self.list.write_text("aaaa worlds/heap.sdf\n")
+        self.assertEqual(self.run_tool("--short", "release")[0], 1)
+        self.assertEqual(self.run_tool("--short", "--update", "release")[0], 2)
+
+    def test_refuses_unknown_options(self):
+        code, output = self.run_tool("--fast")
+        self.assertEqual((code, output), (2, "check_builds: no option --fast\n"))
+
+    def test_plays_a_build_for_aarch64_under_qemu_and_only_that(self):
+        self.build("check-aarch64", "aaaa", "1111")
+        self.script("bin/qemu-aarch64-static", '#!/bin/bash\necho "$1" >> "$(dirname "$0")/started"\nexec "$@"\n')
+        path = os.environ["PATH"]
+        self.addCleanup(os.environ.__setitem__, "PATH", path)
+        os.environ["PATH"] = f"{self.root}/bin:{path}"
+        self.assertEqual(self.run_tool("release", "check-aarch64")[0], 0)
+        self.assertEqual((self.root / "bin/started").read_text(), "build/check-aarch64/bin/roboss\n")
+
     def test_update_writes_the_hashes_and_keeps_comments_and_arguments(self):
         self.build("release", "dddd", "1111")
         self.assertEqual(self.run_tool("--update")[0], 0)

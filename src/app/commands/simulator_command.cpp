@@ -116,10 +116,10 @@ void add_simulator_command(CLI::App& app, int& exit_code) {
             "share the computer, give each its share)")
         ->check(whole_number(1, 1024));
     command
-        ->add_option("--lanes", options->lanes,
-                     "SIMD lanes: largest number of robots of a type stepped together: 1, 4 (AVX2) or 8 "
-                     "(AVX-512), with "
-                     "floats 1, 8 or 16; the result is the same")
+        ->add_option(
+            "--lanes", options->lanes,
+            "SIMD lanes: largest number of robots of a type stepped together: 1, 2 (NEON), 4 (AVX2, NEON) "
+            "or 8 (AVX-512, NEON), with floats twice as many; the result is the same")
         ->check(whole_number(1, kMostLanes))
         ->capture_default_str();
     command->add_flag("--stay", options->member.stay, "wait for the next run when one ends");

@@ -120,10 +120,10 @@ void add_pace_options(CLI::App& command, RunOptions& o) {
             "--processes an equal share, at least 1)")
         ->check(whole_number(1, 1024));
     command
-        .add_option("--lanes", o.lanes,
-                    "SIMD lanes: largest number of robots of a type stepped together: 1, 4 (AVX2) or 8 "
-                    "(AVX-512), with "
-                    "floats 1, 8 or 16; the result is the same")
+        .add_option(
+            "--lanes", o.lanes,
+            "SIMD lanes: largest number of robots of a type stepped together: 1, 2 (NEON), 4 (AVX2, NEON) "
+            "or 8 (AVX-512, NEON), with floats twice as many; the result is the same")
         ->check(whole_number(1, kMostLanes))
         ->capture_default_str();
     command.add_option("--window", o.window, "synchronization interval in ticks, or auto")
@@ -296,7 +296,7 @@ void add_run_options(CLI::App& command, RunOptions& o) {
             "--processes", o.processes,
             "number of Simulators, each as a separate process on this computer; if one fails, the end of "
             "its output is printed")
-        ->check(whole_number(1, 100))
+        ->check(whole_number(1, 1024))
         ->excludes(simulators);
     name_new_options(command, "Simulators of this run");
     limit_help_to(command, {"duration", "speed", "ground", "path", "client", "orders", "view", "headless",

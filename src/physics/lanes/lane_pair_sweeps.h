@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/lanes_neon.h"
 #include "core/lanes_x86.h"
 #include "physics/bodies/sweep_plan.h"
 #include "physics/lanes/lane_six.h"
@@ -76,6 +77,8 @@ class LaneSweeps {
     [[gnu::always_inline]] static Floats square_root(const Floats& x) {
 #if defined(__AVX2__)
         return Avx2::sqrt(x);
+#elif defined(__aarch64__)
+        return Neon::sqrt(x);
 #else
         Floats root{};
         for (std::size_t i = 0; i < kFloats; ++i) root[i] = std::sqrt(x[i]);

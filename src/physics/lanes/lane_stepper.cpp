@@ -46,14 +46,16 @@ bool LaneSteppers::take(const Model& model, const RobotType& type, const RobotSt
 
 std::unique_ptr<LaneStepper> make_lane_stepper(Precision precision, std::size_t most) {
     const bool floats = precision == Precision::kFloat;
-#if defined(__x86_64__)
     if (floats) most /= 2;  // twice as many fill a register
+#if defined(__x86_64__)
     if (most >= 8 && __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq"))
         if (auto stepper = make_avx512_stepper(precision)) return stepper;
     if (most >= 4 && __builtin_cpu_supports("avx2"))
         if (auto stepper = make_avx2_stepper(precision)) return stepper;
-#else
-    static_cast<void>(most);
+#elif defined(__aarch64__)
+    if (most >= 8) return make_neon8_stepper(precision);
+    if (most >= 4) return make_neon4_stepper(precision);
+    if (most >= 2) return make_neon2_stepper(precision);
 #endif
     return floats ? make_single_stepper() : nullptr;
 }

@@ -116,5 +116,8 @@ std::unique_ptr<LaneStepper> make_single_stepper();
 // One translation unit for each instruction set (lanes_*.cpp); nullptr if it was built without.
 std::unique_ptr<LaneStepper> make_avx2_stepper(Precision precision);
 std::unique_ptr<LaneStepper> make_avx512_stepper(Precision precision);
+std::unique_ptr<LaneStepper> make_neon2_stepper(Precision precision);
+std::unique_ptr<LaneStepper> make_neon4_stepper(Precision precision);
+std::unique_ptr<LaneStepper> make_neon8_stepper(Precision precision);
 
 }  // namespace roboss

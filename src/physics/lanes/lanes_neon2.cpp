@@ -1,0 +1,17 @@
+// Lanes of NEON, two doubles or four floats: a register. Every aarch64 processor has it.
+#include "core/lanes_neon.h"
+#include "physics/lanes/lane_step.h"
+
+namespace roboss {
+
+std::unique_ptr<LaneStepper> make_neon2_stepper(Precision precision) {
+#if defined(__aarch64__)
+    if (precision == Precision::kFloat) return std::make_unique<LaneStep<FloatsNeon4>>();
+    return std::make_unique<LaneStep<DoublesNeon2>>();
+#else
+    static_cast<void>(precision);
+    return nullptr;
+#endif
+}
+
+}  // namespace roboss

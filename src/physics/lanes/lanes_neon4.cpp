@@ -1,0 +1,17 @@
+// Lanes of NEON, four doubles or eight floats: two registers. Every aarch64 processor has it.
+#include "core/lanes_neon.h"
+#include "physics/lanes/lane_step.h"
+
+namespace roboss {
+
+std::unique_ptr<LaneStepper> make_neon4_stepper(Precision precision) {
+#if defined(__aarch64__)
+    if (precision == Precision::kFloat) return std::make_unique<LaneStep<FloatsNeon8>>();
+    return std::make_unique<LaneStep<DoublesNeon4>>();
+#else
+    static_cast<void>(precision);
+    return nullptr;
+#endif
+}
+
+}  // namespace roboss
