@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "core/error_text.h"
+
 namespace roboss {
 namespace {
 
@@ -100,10 +102,9 @@ void BusClient::take_welcome(const ClientWelcome& welcome) {
 }
 
 std::vector<std::string> BusClient::take_refusals() {
-    std::vector<std::string> refusals = refusals_.take();
     for (const RefusedOrder& r : take_refused_orders())
-        refusals.push_back("order " + std::to_string(r.sequence) + ": " + r.reason);
-    return refusals;
+        refusals_.add_order(error_of_text("", r.reason, {}, {}));
+    return refusals_.take();
 }
 
 /// The Controller was restarted: resends the replies that it has not acknowledged, and waits for the

@@ -47,7 +47,9 @@ struct Draft {
     Key key;
 };
 
-std::optional<Draft> draft(const std::string& name, const std::string& unit, int days) {
+/// `rights`: empty: it says none.
+std::optional<Draft> draft(const std::string& name, const std::string& unit, int days,
+                           const std::string& rights = {}) {
     Draft d{Certificate(X509_new()), Key(EVP_EC_gen("P-256"))};
     if (!d.certificate || !d.key) return std::nullopt;
     X509* c = d.certificate.get();
@@ -56,7 +58,8 @@ std::optional<Draft> draft(const std::string& name, const std::string& unit, int
                       X509_gmtime_adj(X509_getm_notBefore(c), -kClockSkew_s) != nullptr &&
                       X509_time_adj_ex(X509_getm_notAfter(c), days, 0, nullptr) != nullptr &&
                       X509_set_pubkey(c, d.key.get()) == 1 && add_word(subject, "OU", unit) &&
-                      add_word(subject, "CN", name);
+                      add_word(subject, "CN", name) &&
+                      (rights.empty() || add_word(subject, "description", rights));
     if (!done) return std::nullopt;
     return d;
 }
@@ -118,6 +121,12 @@ Result<Holder> holder_of(const X509* certificate) {
     if (holder.name.empty() || !seat)
         return Error{"the certificate names no role of RoBOSS", "make it with `roboss keys`", "not-ours"};
     holder.seat = seat.value();
+    if (const std::string text = word(subject, NID_description); !text.empty()) {
+        Result<Rights> rights = rights_of(text);
+        if (!rights) return rights.error();
+        holder.rights = std::move(rights).value();
+    }
+    holder.rights.key = holder.name;
     const Number number(ASN1_INTEGER_to_BN(X509_get0_serialNumber(certificate), nullptr));
     if (char* text = number ? BN_bn2hex(number.get()) : nullptr) holder.serial = text, OPENSSL_free(text);
     tm end{};
@@ -156,10 +165,15 @@ Result<KeyPair> new_authority(const std::string& name, int days) {
 
 Result<KeyPair> new_certificate(const KeyPair& authority, const Holder& holder, int days) {
     if (Result<> named = check_name(holder.name); !named) return named.error();
+    const bool limited = !holder.rights.everything();
+    if (limited && holder.seat != Seat::kClient)
+        return Error{std::string("the rights of a ") + seat_name(holder.seat) + " cannot be limited",
+                     "give the role client", "bad-rights"};
     const Certificate issuer = certificate_of(authority.certificate);
     const Key key = key_of(authority.key);
     if (!issuer || !key) return failed("the authority's certificate and key cannot be read");
-    std::optional<Draft> d = draft(holder.name, seat_name(holder.seat), days);
+    std::optional<Draft> d =
+        draft(holder.name, seat_name(holder.seat), days, limited ? rights_text(holder.rights) : "");
     if (!d) return failed("no key can be made");
     X509* c = d->certificate.get();
     if (X509_set_issuer_name(c, X509_get_subject_name(issuer.get())) != 1 ||

@@ -1,11 +1,13 @@
 // Keys and certificates of a run (X.509, elliptic curve P-256, as PEM text): an authority, and what it signs
-// for each member. A certificate says who its holder is and in which role it may take part.
+// for each member. A certificate says who its holder is, in which role it may take part, and what a Client
+// may order.
 #pragma once
 
 #include <cstdint>
 #include <string>
 
 #include "core/result.h"
+#include "wire/rights.h"
 
 namespace roboss {
 
@@ -33,13 +35,15 @@ struct Holder {
     Seat seat = Seat::kMember;
     std::string serial{};   ///< of the certificate, hexadecimal
     std::string expires{};  ///< UTC, ISO 8601
+    Rights rights{};        ///< of a Client; all others have everything
 };
 
 /// A new authority, which signs itself. An Error: the system gives no random numbers.
 Result<KeyPair> new_authority(const std::string& name, int days);
 
 /// A key for this holder, and its certificate, signed by the authority. An Error: the authority's texts are
-/// no certificate and key, or the name is empty or longer than 64 bytes.
+/// no certificate and key, the name is empty or longer than 64 bytes, or the rights of another seat than
+/// kClient are limited.
 Result<KeyPair> new_certificate(const KeyPair& authority, const Holder& holder, int days);
 
 /// Whom a certificate (PEM) names. An Error: the text is none of ours.

@@ -79,6 +79,7 @@ class Connection : public std::enable_shared_from_this<Connection> {
     bool no_room = false;            // taken only to be refused
     std::set<Address> had;           // of a deaf one
     Caller hello;
+    std::shared_ptr<const Rights> rights;  // of its key; null: all
 
     static constexpr std::size_t kWaitingMost = std::size_t{256} << 20;
 

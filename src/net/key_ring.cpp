@@ -45,7 +45,7 @@ bool KeyRing::has(const std::string& name) const {
     return fs::exists(folder_ / name / "member.crt", error);
 }
 
-Result<> KeyRing::add(const std::string& name, Seat seat, int days) {
+Result<> KeyRing::add(const std::string& name, Seat seat, int days, const Rights& rights) {
     if (Result<> named = check_holder_name(name); !named) return named;
     if (has(name))
         return Error{"'" + name + "' has a key already", "use it, or revoke it first", "key-exists"};
@@ -53,7 +53,8 @@ Result<> KeyRing::add(const std::string& name, Seat seat, int days) {
                               key = read_text(folder_ / "authority.key");
     if (!certificate) return certificate.error();
     if (!key) return key.error();
-    Result<KeyPair> own = new_certificate({certificate.value(), key.value()}, {name, seat}, days);
+    Result<KeyPair> own =
+        new_certificate({certificate.value(), key.value()}, {name, seat, {}, {}, rights}, days);
     if (!own) return own.error();
     return write_keys(folder_ / name, {certificate.value(), std::move(own).value(), {}});
 }

@@ -19,8 +19,9 @@ class KeyRing {
     /// written.
     static Result<KeyRing> open(const std::filesystem::path& folder);
 
-    /// Makes a key for a holder. An Error [key-exists]: the name has one already.
-    Result<> add(const std::string& name, Seat seat, int days);
+    /// Makes a key for a holder. An Error [key-exists]: the name has one already; [bad-rights]: only those of
+    /// a Client can be limited.
+    Result<> add(const std::string& name, Seat seat, int days, const Rights& rights = {});
     /// The keys of a holder.
     Result<Credentials> credentials(const std::string& name) const;
     bool has(const std::string& name) const;

@@ -158,11 +158,14 @@ void Switchboard::take_message(Connection& peer, std::vector<std::uint8_t> bytes
     if (!peer.accepted) return refuse(peer, "misbehaves", "it sent a message before its name");
     const Result<EnvelopeEnds> ends = decode_ends(bytes);
     if (!ends) return refuse(peer, "misbehaves", ends.error().message);
-    const auto& [from, to] = ends.value();
+    const auto& [from, to, of_clients] = ends.value();
     if (!member_ && !owns(peer, from)) return;
+    if (!member_ && from.role == Role::kClient && !of_clients)
+        return refuse(peer, "misbehaves", "it sent a message that no Client sends");
     if (mailboxes_.has(to)) {
         Result<Envelope> envelope = decode_envelope(bytes);
         if (!envelope) return refuse(peer, "misbehaves", envelope.error().message);
+        envelope.value().rights = peer.rights;
         mailboxes_.put(std::move(envelope).value(), bytes.size());
         if (mailboxes_.full()) peer.pause();
     } else if (!member_) {

@@ -175,6 +175,8 @@ void Switchboard::ready(Connection& peer) {
         if (session != nullptr && session->peer().seat == Seat::kController)
             return refuse(peer, "bad-certificate",
                           "the key of '" + session->peer().name + "' is a Controller's");
+        if (session != nullptr && !session->peer().rights.everything())
+            peer.rights = std::make_shared<const Rights>(session->peer().rights);
         return;
     }
     if (!objection.empty())

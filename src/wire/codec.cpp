@@ -505,13 +505,29 @@ Result<> take_version(wire::Reader& a) {
                  "run the same version of RoBOSS everywhere"};
 }
 
+template <class Kind, std::size_t I = 0>
+constexpr std::size_t index_of() {
+    if constexpr (std::is_same_v<Kind, std::variant_alternative_t<I, Message>>)
+        return I;
+    else
+        return index_of<Kind, I + 1>();
+}
+
+template <class... Kinds>
+constexpr bool is_one_of(std::size_t kind) {
+    return ((kind == index_of<Kinds>()) || ...);
+}
+
 }  // namespace
 
 Result<EnvelopeEnds> decode_ends(std::span<const std::uint8_t> bytes) {
     wire::Reader a(bytes);
     if (Result<> version = take_version(a); !version) return version.error();
     EnvelopeEnds ends;
-    wire::fields(a, ends.from, ends.to);
+    std::uint8_t kind = 0;
+    wire::fields(a, ends.from, ends.to, kind);
+    ends.of_clients = is_one_of<ClientHello, ClientReply, ClientBye, ControlRequest, ModelRequest,
+                                StateRequest, ViewRequest>(kind);
     if (!a.failed()) return ends;
     return Error{"a damaged message: " + a.failure(), "check what else sends to this port"};
 }

@@ -22,6 +22,7 @@ Result<Envelope> decode_envelope(std::span<const std::uint8_t> bytes);
 /// Sender and receiver of an encoded Envelope, for who passes it on without reading the rest.
 struct EnvelopeEnds {
     Address from, to;
+    bool of_clients = false;  // it is of a kind that Clients send
 };
 Result<EnvelopeEnds> decode_ends(std::span<const std::uint8_t> bytes);
 

@@ -6,6 +6,7 @@
 #include <array>
 #include <compare>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <variant>
@@ -357,9 +358,13 @@ using Message =
                  ReplyAck, ClientBye, RunOver, ModelRequest, ModelPart, ClientUnknown, ControlRequest,
                  ControlReply, ModelChanged, ViewRequest, ViewDue, ViewStates, OrdersAhead, Late, Cut>;
 
+struct Rights;
+
 struct Envelope {
     Address from, to;
     Message message;
+    /// Of the sender's key, as the Bus knows it: no part of the message on the wire. Null: all.
+    std::shared_ptr<const Rights> rights{};
     friend bool operator==(const Envelope&, const Envelope&) = default;
 };
 

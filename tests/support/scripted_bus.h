@@ -14,6 +14,10 @@ namespace roboss::test {
 class ScriptedBus : public InProcessBus {
   public:
     std::int64_t now_ms() override { return time_ms; }
+    void drain(const Address& self, std::vector<Envelope>& inbox) override {
+        InProcessBus::drain(self, inbox);
+        for (Envelope& envelope : inbox) envelope.rights = rights;
+    }
     std::vector<Address> take_vanished(const Address&) override { return std::exchange(vanished, {}); }
 
     /// All messages of this kind that have arrived there; the others are dropped.
@@ -28,7 +32,8 @@ class ScriptedBus : public InProcessBus {
     }
 
     std::int64_t time_ms = 0;
-    std::vector<Address> vanished;  // reported once
+    std::vector<Address> vanished;         // reported once
+    std::shared_ptr<const Rights> rights;  // of all that is drained
 };
 
 }  // namespace roboss::test

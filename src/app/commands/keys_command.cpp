@@ -5,6 +5,8 @@
 
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
 
 #include "app/commands/exit_codes.h"
 #include "app/commands/numbers.h"
@@ -27,6 +29,12 @@ computers, make a key for each, and copy its folder there (and nothing else; aut
   roboss simulator --controller node1 --keys sim-1                         on node2
   roboss keys revoke keys sim-1
 
+A Client's key may order every robot in every way and steer the run (pause, save, rewind, add and remove robots, end it),
+unless its rights are limited. They are signed with it, so only a new key changes them:
+
+  roboss keys add keys pilot --role client --robots 'car_*,spider' --orders actuators,velocity
+  roboss keys add keys observer --role client --look-only
+
 `roboss cluster up` makes and copies keys by itself. A Controller accepts the keys of its own authority only, and each
 only for its role. It reads the list of revoked keys, keys/controller/revoked, again when that changes.
 
@@ -36,6 +44,8 @@ struct KeysOptions {
     std::string folder, name, role = "member";
     int days = 365;
     bool json = false;
+    std::vector<std::string> robots, orders;
+    bool look_only = false, steer = false, no_steer = false;
 };
 
 int fail(const Error& error) {
@@ -43,13 +53,27 @@ int fail(const Error& error) {
     return kBadInput;
 }
 
+/// A key with limited orders does not steer, unless that is asked for.
+Result<Rights> rights_of(const KeysOptions& o) {
+    if (o.look_only) return make_rights({"*"}, {}, false);
+    std::vector<std::string> kinds = o.orders;
+    for (std::size_t i = 0; o.orders.empty() && i < kOrderKinds; ++i)
+        kinds.emplace_back(order_kind_name(static_cast<OrderKind>(i)));
+    const bool limited = o.no_steer || !o.robots.empty() || !o.orders.empty();
+    return make_rights(o.robots.empty() ? std::vector<std::string>{"*"} : o.robots, kinds,
+                       o.steer || !limited);
+}
+
 int add(const KeysOptions& o) {
     const Result<Seat> seat = seat_of(o.role);
     if (!seat) return fail(seat.error());
     if (Result<> named = check_holder_name(o.name); !named) return fail(named.error());
+    const Result<Rights> rights = rights_of(o);
+    if (!rights) return fail(rights.error());
     Result<KeyRing> ring = KeyRing::open(o.folder);
     if (!ring) return fail(ring.error());
-    if (Result<> added = ring.value().add(o.name, seat.value(), o.days); !added) return fail(added.error());
+    if (Result<> added = ring.value().add(o.name, seat.value(), o.days, rights.value()); !added)
+        return fail(added.error());
     say("{}/{}: the key of a {}, for its --keys\n", o.folder, o.name, o.role);
     return kSuccess;
 }
@@ -60,6 +84,12 @@ Result<KeyRing> ring_of(const KeysOptions& o) {
     if (!std::filesystem::exists(o.folder, error))
         return Error{"there is no folder " + o.folder, "`roboss keys add` makes it", "no-keys"};
     return KeyRing::open(o.folder);
+}
+
+/// Empty: the key is not for a Client.
+std::string rights_column(const Holder& holder) {
+    const bool orders = holder.seat == Seat::kClient || holder.seat == Seat::kMember;
+    return orders ? rights_text(holder.rights) : "";
 }
 
 int list(const KeysOptions& o) {
@@ -73,13 +103,15 @@ int list(const KeysOptions& o) {
             all.push_back({{"name", holder.name},
                            {"role", seat_name(holder.seat)},
                            {"expires", holder.expires},
-                           {"serial", holder.serial}});
+                           {"serial", holder.serial},
+                           {"rights", rights_column(holder)}});
         say("{}\n", all.dump(2));
         return kSuccess;
     }
-    say("{:24}  {:10}  {}\n", "NAME", "ROLE", "EXPIRES");
+    say("{:24}  {:10}  {:20}  {}\n", "NAME", "ROLE", "EXPIRES", "RIGHTS");
     for (const Holder& holder : holders.value())
-        say("{:24}  {:10}  {}\n", holder.name, seat_name(holder.seat), holder.expires);
+        say("{:24}  {:10}  {:20}  {}\n", holder.name, seat_name(holder.seat), holder.expires,
+            rights_column(holder));
     return kSuccess;
 }
 
@@ -90,6 +122,30 @@ int revoke(const KeysOptions& o) {
     say("the key of {} is revoked; Controllers with their keys elsewhere need the new file `revoked`\n",
         o.name);
     return kSuccess;
+}
+
+void add_rights_options(CLI::App& sub, KeysOptions& o) {
+    constexpr const char* kGroup = "Rights of a Client (default: all)";
+    const auto list = [&](const char* name, std::vector<std::string>& words, const char* what) {
+        return sub.add_option(name, words, what)->delimiter(',')->expected(1)->group(kGroup);
+    };
+    CLI::Option* robots =
+        list("--robots", o.robots, "robots that it may order: names and patterns, 'car_*,spider'");
+    CLI::Option* orders =
+        list("--orders", o.orders,
+             "kinds of orders that it may give: pose, velocity, force, actuators, bonds, radio");
+    CLI::Option* steer =
+        sub.add_flag("--steer", o.steer,
+                     "it may pause, save, rewind, change and end the run, although its orders are limited")
+            ->group(kGroup);
+    CLI::Option* no_steer = sub.add_flag("--no-steer", o.no_steer, "it may only order")->group(kGroup);
+    steer->excludes(no_steer);
+    sub.add_flag("--look-only", o.look_only,
+                 "it may neither order nor steer, and the world never waits for it")
+        ->excludes(robots)
+        ->excludes(orders)
+        ->excludes(steer)
+        ->group(kGroup);
 }
 
 }  // namespace
@@ -111,8 +167,9 @@ void add_keys_command(CLI::App& app, int& exit_code) {
     sub->add_option("--days", o->days, "until it expires")
         ->check(whole_number(1, 36'500))
         ->capture_default_str();
+    add_rights_options(*sub, *o);
     sub->callback([o, &exit_code] { exit_code = add(*o); });
-    sub = command->add_subcommand("list", "print the names, roles and ends of all keys");
+    sub = command->add_subcommand("list", "print the names, roles, ends and rights of all keys");
     folder(sub);
     sub->add_flag("--json", o->json, "print a JSON array");
     sub->callback([o, &exit_code] { exit_code = list(*o); });

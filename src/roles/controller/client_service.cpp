@@ -13,6 +13,10 @@ namespace {
 
 constexpr std::size_t kRefusalsKept = 1'000;
 
+bool looks_only(const Rights* rights) {
+    return rights != nullptr && rights->look_only();
+}
+
 /// The first multiple of `period` that is not before `tick`.
 Tick next_multiple(Tick tick, Tick period) {
     return (tick + period - 1) / period * period;
@@ -33,14 +37,16 @@ ClientService::ClientService(std::shared_ptr<const Model> model, const ClientSer
     for (const std::string& name : options_.expected) seats_.emplace_back().name = name;
 }
 
-void ClientService::take_hello(Bus& bus, const Address& from, const ClientHello& hello,
-                               Tick scheduled_until) {
+void ClientService::take_hello(Bus& bus, const Address& from, const ClientHello& asked, Tick scheduled_until,
+                               const Rights* rights) {
+    ClientHello hello = asked;
+    hello.observer = hello.observer || looks_only(rights);
     const Tick tick = directory_.tick();
     if (from.role != Role::kClient)
         return notices_.dropped("ClientHello", tick, "its sender is not a Client");
     if (model_server_.is_earlier(hello.model_hash))
         return bus.send(kControllerAddress, from, ModelChanged{model_->hash});
-    if (const std::optional<Error> objection = objection_to(from, hello)) {
+    if (const std::optional<Error> objection = objection_to(from, hello, rights)) {
         notices_.add("client '" + hello.name + "' refused: " + objection->message + " [" + objection->code +
                      "]");
         return bus.send(kControllerAddress, from, Refused{objection->text()});
@@ -52,14 +58,13 @@ void ClientService::take_hello(Bus& bus, const Address& from, const ClientHello&
     const ClientId id(static_cast<std::size_t>(&seat - seats_.data()));
     const bool succeeds = is_new && seat.joined;
     if (is_new) {
-        ClientHello new_hello = hello;
         if (options_.went_back) {  // its replies were for a discarded history
-            new_hello.expected = -1;
-            new_hello.acknowledged = new_hello.last_reply;
+            hello.expected = -1;
+            hello.acknowledged = hello.last_reply;
         }
         // The run follows a log, which has its replies so far.
         const bool follows_log = scheduled_until < recorder_.logged_until();
-        sit_down(seat, from, new_hello, follows_log ? tick : scheduled_until);
+        sit_down(seat, from, hello, follows_log ? tick : scheduled_until);
     }
     seat.vanished_ms.reset();
     bus.send(kControllerAddress, from, ClientWelcome{id, seat.first, options_.seed});
@@ -82,10 +87,15 @@ ClientSeat* ClientService::seat_named(const std::string& name) {
     return seat == seats_.end() ? nullptr : &*seat;
 }
 
-std::optional<Error> ClientService::objection_to(const Address& from, const ClientHello& hello) {
+std::optional<Error> ClientService::objection_to(const Address& from, const ClientHello& hello,
+                                                 const Rights* rights) {
     if (hello.model_hash != model_->hash)
         return Error{"its world is not this run's", "start it again: it gets the world from the Controller",
                      "other-world"};
+    if (looks_only(rights) && hello.synchronous)
+        return Error{"the key '" + rights->key + "' lets it look only, and the world would wait for it",
+                     "make it free-running (ControlOptions::synchronous), or look on with `roboss view`",
+                     "not-permitted"};
     const ClientSeat* seat = hello.observer ? nullptr : seat_named(hello.name);
     if (seat == nullptr || seat->address == from) return {};
     if (!seat->vanished_ms)
@@ -103,10 +113,11 @@ std::optional<Error> ClientService::objection_to(const Address& from, const Clie
                  "other-times"};
 }
 
-/// That of its predecessor, which has vanished; or one that waits for it; or a new one.
+/// That of its predecessor, which has vanished; or one that waits for it; or a new one, always so for an
+/// observer.
 ClientSeat& ClientService::seat_for(const ClientHello& hello) {
-    if (!hello.observer)
-        if (ClientSeat* before = seat_named(hello.name)) return *before;
+    if (hello.observer) return seats_.emplace_back();
+    if (ClientSeat* before = seat_named(hello.name)) return *before;
     const auto waits =
         std::ranges::find_if(seats_, [&](const ClientSeat& s) { return !s.joined && s.name == hello.name; });
     return waits == seats_.end() ? seats_.emplace_back() : *waits;
@@ -141,7 +152,7 @@ ClientSeat* ClientService::joined_at(Bus& bus, const Address& from, ClientId id)
 }
 
 std::size_t ClientService::take_reply(Bus& bus, const Address& from, const ClientReply& reply,
-                                      Tick scheduled_until) {
+                                      Tick scheduled_until, const Rights* rights) {
     ClientSeat* seat = joined_at(bus, from, reply.client);
     if (seat == nullptr || !seat->serves()) return 0;
     seat->heard_ms = bus.now_ms();
@@ -153,7 +164,7 @@ std::size_t ClientService::take_reply(Bus& bus, const Address& from, const Clien
         seat->last_reply = reply.number;
         seat->answered = std::max(seat->answered, reply.observed);
         if (!recorder_.has_reply(reply.client, seat->synchronous, reply.observed))
-            refused = take_orders(*seat, reply, scheduled_until);
+            refused = take_orders(*seat, reply, scheduled_until, rights);
         std::erase_if(seat->unanswered, [&](Tick tick) { return tick == reply.observed; });
         directory_.forget(reply.client, reply.observed);
     }
@@ -166,7 +177,8 @@ Tick ClientService::stampable(Tick scheduled_until) const {
     return std::max(scheduled_until, recorder_.logged_until());
 }
 
-std::size_t ClientService::take_orders(ClientSeat& seat, const ClientReply& reply, Tick scheduled_until) {
+std::size_t ClientService::take_orders(ClientSeat& seat, const ClientReply& reply, Tick scheduled_until,
+                                       const Rights* rights) {
     std::size_t refused = 0;
     const Tick earliest = stampable(scheduled_until);
     const Tick apply_at = seat.synchronous ? std::max(reply.observed + seat.latency, earliest) : earliest;
@@ -174,13 +186,14 @@ std::size_t ClientService::take_orders(ClientSeat& seat, const ClientReply& repl
         const std::uint64_t sequence = seat.sequence_before + given.sequence;
         seat.sequence = std::max(seat.sequence, sequence);
         const Order order{apply_at, reply.client, sequence, given.robot, given.action};
-        if (Result<> checked = check_order(*model_, order); !checked) {
+        Result<> checked = check_order(*model_, order);
+        if (checked) checked = permit(rights, *model_, order);
+        if (!checked) {
             ++refused;
             seat.refused.push_back(
                 {reply.number, {given.sequence, checked.error().text(), checked.error().code}});
             if (seat.refused.size() > kRefusalsKept) seat.refused.pop_front();
-            notices_.add("order " + std::to_string(given.sequence) + " of client '" + seat.name +
-                         "' refused: " + checked.error().message);
+            notices_.add_refusal("orders of client '" + seat.name + "'", checked.error());
             continue;
         }
         order_log_.add(order, reply.observed);
@@ -202,23 +215,24 @@ void ClientService::acknowledge(Bus& bus) {
     }
 }
 
-void ClientService::take_bye(Bus& bus, const Address& from, const ClientBye& bye) {
+void ClientService::take_bye(Bus& bus, const Address& from, const ClientBye& bye, const Rights* rights) {
     ClientSeat* seat = joined_at(bus, from, bye.client);
     if (seat == nullptr || bye.number > seat->last_reply + 1) return;
     const bool is_news = !seat->gone && bye.number > seat->last_reply;
+    const bool ends_run = bye.failed && !looks_only(rights);
     if (is_news) {
         seat->last_reply = bye.number;
-        drop(bye.client, !bye.failed);
+        drop(bye.client, !ends_run);
     }
     seat->acknowledge_at = recorder_.given();
     if (!is_news) return;
-    if (bye.failed)
+    if (ends_run)
         notices_.fail(error_of_text(
             "client '" + seat->name + "' failed at tick " + std::to_string(directory_.tick()) + ": ",
             bye.reason, "fix the control program; the world up to this tick is intact and can be saved",
             "client-failed"));
     else
-        notices_.add("client '" + seat->name + "' left");
+        notices_.add("client '" + seat->name + "' left" + (bye.failed ? ": " + bye.reason : ""));
 }
 
 void ClientService::drop(ClientId id, bool for_good) {

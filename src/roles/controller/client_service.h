@@ -14,6 +14,7 @@
 #include "roles/controller/recorder.h"
 #include "roles/controller/run_notices.h"
 #include "roles/controller/state_directory.h"
+#include "wire/rights.h"
 
 namespace roboss {
 
@@ -64,11 +65,15 @@ class ClientService {
                   StateDirectory& directory, RunNotices& notices);
 
     // Messages in. `scheduled_until`: the end of the window in progress, or else the committed tick.
-    void take_hello(Bus& bus, const Address& from, const ClientHello& hello, Tick scheduled_until);
+    // `rights`: of the sender's key; null: all.
+    /// One that may look only takes part as an observer.
+    void take_hello(Bus& bus, const Address& from, const ClientHello& hello, Tick scheduled_until,
+                    const Rights* rights = nullptr);
     /// Returns how many of its orders were refused.
-    std::size_t take_reply(Bus& bus, const Address& from, const ClientReply& reply, Tick scheduled_until);
-    /// A Client that leaves because of a failure ends the run.
-    void take_bye(Bus& bus, const Address& from, const ClientBye& bye);
+    std::size_t take_reply(Bus& bus, const Address& from, const ClientReply& reply, Tick scheduled_until,
+                           const Rights* rights = nullptr);
+    /// A Client that leaves because of a failure ends the run, unless it may look only.
+    void take_bye(Bus& bus, const Address& from, const ClientBye& bye, const Rights* rights = nullptr);
     /// The Bus reports that nobody is at this address any more.
     void take_vanished(const Address& address, std::int64_t now_ms);
     /// Gives up Clients that are silent or vanished for too long. A synchronous one ends the run.
@@ -107,12 +112,13 @@ class ClientService {
   private:
     ClientSeat* seat_named(const std::string& name);
     /// The reason for which this caller cannot take part; nothing: it can.
-    std::optional<Error> objection_to(const Address& from, const ClientHello& hello);
+    std::optional<Error> objection_to(const Address& from, const ClientHello& hello, const Rights* rights);
     ClientSeat& seat_for(const ClientHello& hello);
     static void sit_down(ClientSeat& seat, const Address& address, const ClientHello& hello, Tick earliest);
     /// The seat of a Client that has joined at this address; others get ClientUnknown.
     ClientSeat* joined_at(Bus& bus, const Address& from, ClientId id);
-    std::size_t take_orders(ClientSeat& seat, const ClientReply& reply, Tick scheduled_until);
+    std::size_t take_orders(ClientSeat& seat, const ClientReply& reply, Tick scheduled_until,
+                            const Rights* rights);
     void queue_observation(ClientId id);
     Observation observation_of(const WantedTick& want, const Roster& roster) const;
     /// `for_good`: a run that continues from the log does not wait for it.

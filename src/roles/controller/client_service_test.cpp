@@ -30,17 +30,17 @@ class Clients : public testing::Test {
         options.loss_ms = 1000;
     }
     void join(const Address& address, const std::string& name, Tick period, Tick latency,
-              bool synchronous = true) {
+              bool synchronous = true, const Rights* rights = nullptr) {
         service().take_hello(bus, address, {name, sim.model->hash, period, latency, synchronous},
-                             directory.tick());
+                             directory.tick(), rights);
     }
     void commit(Tick tick) {
         directory.commit(tick, std::vector<SeatId>{0}, roster);
         service().queue_observations();
     }
     std::size_t reply(const Address& address, ClientId id, std::uint64_t number, Tick observed,
-                      const std::vector<ClientOrder>& orders = {}) {
-        return service().take_reply(bus, address, {id, number, observed, orders}, directory.tick());
+                      const std::vector<ClientOrder>& orders = {}, const Rights* rights = nullptr) {
+        return service().take_reply(bus, address, {id, number, observed, orders}, directory.tick(), rights);
     }
     ClientService& service() {
         if (!service_)
@@ -251,6 +251,50 @@ TEST_F(Clients, ASuccessorWithOtherTimesIsRefusedAndHearsHowToBranch) {
     service().notice_losses(151);
     ASSERT_TRUE(notices.failure());
     EXPECT_EQ(notices.failure()->code, "client-lost");
+}
+
+TEST_F(Clients, AnOrderThatTheKeyDoesNotPermitIsRefusedOnBothSidesAndReachesNoLog) {
+    const Rights rights = make_rights({"*"}, {"velocity"}, false).value();
+    const std::vector<ClientOrder> orders{{1, RobotId(0u), SetPose{}}, {2, RobotId(0u), SetVelocity{}}};
+    join(kA, "a", 1, 3);
+    notices.take();
+    for (std::uint64_t number = 1; number <= 50; ++number) {
+        EXPECT_EQ(reply(kA, ClientId(0u), number, static_cast<Tick>(number) - 1, orders, &rights), 1u);
+        service().acknowledge(bus);
+        const auto acks = bus.take<ReplyAck>(kA);
+        ASSERT_EQ(acks.size(), 1u);
+        ASSERT_FALSE(acks[0].refused.empty());
+        EXPECT_EQ(acks[0].refused.back().code, "not-permitted");
+    }
+    ASSERT_EQ(order_log.size(), 50u);
+    for (const LoggedOrder& logged : order_log.pending(1'000))
+        EXPECT_TRUE(std::holds_alternative<SetVelocity>(logged.order.action));
+    const std::vector<std::string> lines = notices.take();
+    ASSERT_EQ(lines.size(), 1u) << "not once for each order";
+    EXPECT_NE(lines[0].find("client 'a'"), std::string::npos) << lines[0];
+    EXPECT_NE(lines[0].find("[not-permitted]"), std::string::npos) << lines[0];
+    const Rights others = make_rights({"car_*"}, {"velocity"}, false).value();
+    EXPECT_EQ(reply(kA, ClientId(0u), 51, 50, orders, &others), 2u) << "the rights come with each message";
+}
+
+TEST_F(Clients, OneThatMayLookOnlyDisturbsNothing) {
+    options.expected = {"driver"};
+    const Rights rights = make_rights({"*"}, {}, false).value();
+    join(kA, "driver", 10, 10, true, &rights);
+    const auto refused = bus.take<Refused>(kA);
+    ASSERT_EQ(refused.size(), 1u) << "the world would wait for it";
+    EXPECT_NE(refused[0].reason.find("[not-permitted]"), std::string::npos) << refused[0].reason;
+    join(kA, "driver", 10, 10, false, &rights);
+    ASSERT_EQ(bus.take<ClientWelcome>(kA).size(), 1u);
+    EXPECT_FALSE(service().all_joined()) << "it takes nobody's place";
+    join(kB, "driver", 10, 10);
+    ASSERT_EQ(bus.take<ClientWelcome>(kB).at(0).client, ClientId(0u));
+    const std::vector<ClientOrder> orders{{1, RobotId(0u), SetVelocity{}}};
+    EXPECT_EQ(reply(kA, ClientId(1u), 1, 0, orders, &rights), 1u);
+    EXPECT_EQ(order_log.size(), 0u);
+    service().take_bye(bus, kA, {ClientId(1u), 2, true, "no eyes"}, &rights);
+    EXPECT_FALSE(notices.failure());
+    EXPECT_EQ(service().names_serving(), std::vector<std::string>{"driver"});
 }
 
 TEST_F(Clients, AFailureOfOneEndsTheRun) {

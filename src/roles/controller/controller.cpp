@@ -113,6 +113,7 @@ void Controller::check_phase() const {
 
 void Controller::handle(Bus& bus, Envelope& envelope) {
     const Address& from = envelope.from;
+    const Rights* rights = envelope.rights.get();
     if (const auto* result = std::get_if<WindowResult>(&envelope.message)) {
         if (const auto seat_id = roster_.heard_from(bus, from)) take_result(*seat_id, *result);
     } else if (const auto* late = std::get_if<Late>(&envelope.message)) {
@@ -125,17 +126,17 @@ void Controller::handle(Bus& bus, Envelope& envelope) {
     } else if (const auto* reply = std::get_if<StateReply>(&envelope.message)) {
         checkpoints_.accept(*reply);
     } else if (const auto* client_reply = std::get_if<ClientReply>(&envelope.message)) {
-        counters_.orders_refused += clients_.take_reply(bus, from, *client_reply, scheduled_until());
+        counters_.orders_refused += clients_.take_reply(bus, from, *client_reply, scheduled_until(), rights);
     } else if (const auto* hello = std::get_if<Hello>(&envelope.message)) {
         take_hello(bus, from, *hello);
     } else if (const auto* client_hello = std::get_if<ClientHello>(&envelope.message)) {
-        clients_.take_hello(bus, from, *client_hello, scheduled_until());
+        clients_.take_hello(bus, from, *client_hello, scheduled_until(), rights);
     } else if (const auto* leave = std::get_if<LeaveRequest>(&envelope.message)) {
         take_leave(bus, from, *leave);
     } else if (const auto* bye = std::get_if<ClientBye>(&envelope.message)) {
-        clients_.take_bye(bus, from, *bye);
+        clients_.take_bye(bus, from, *bye, rights);
     } else if (const auto* asked = std::get_if<ControlRequest>(&envelope.message)) {
-        control_.take(bus, from, *asked);
+        take_request(bus, from, *asked, rights);
     } else if (const auto* wanted = std::get_if<ModelRequest>(&envelope.message)) {
         bus.send(kControllerAddress, from, model_server_.part(*wanted));
     } else if (const auto* view = std::get_if<ViewRequest>(&envelope.message)) {
@@ -161,6 +162,14 @@ void Controller::take_hello(Bus& bus, const Address& from, const Hello& hello) {
                      std::to_string(tick()));
     counters_.simulators = roster_.alive_count();
     bus.send(kControllerAddress, from, Welcome{roster_.id_of(*seat_id)});
+}
+
+void Controller::take_request(Bus& bus, const Address& from, const ControlRequest& request,
+                              const Rights* rights) {
+    const Result<> permitted = permit(rights, request.action);
+    if (permitted) return control_.take(bus, from, request);
+    notices_.add_refusal("requests of '" + rights->key + "'", permitted.error());
+    bus.send(kControllerAddress, from, ControlReply{request.number, ControlRefused(permitted.error())});
 }
 
 ControllerOptions::Before Controller::hand_over() {

@@ -153,6 +153,7 @@ class Controller {
     void handle(Bus& bus, Envelope& envelope);
     void take_hello(Bus& bus, const Address& from, const Hello& hello);
     void take_leave(Bus& bus, const Address& from, const LeaveRequest& request);
+    void take_request(Bus& bus, const Address& from, const ControlRequest& request, const Rights* rights);
     void take_result(SeatId seat_id, const WindowResult& result);
 
     // controller_window.cpp: a window, from plan to commit

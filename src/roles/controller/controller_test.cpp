@@ -7,6 +7,7 @@
 #include <support/scripted_bus.h>
 #include <support/simulation.h>
 
+#include "wire/rights.h"
 #include "wire/state_block.h"
 
 namespace roboss::test {
@@ -147,6 +148,33 @@ TEST_F(Phases, AStateThatIsNotFiniteEndsTheRunBeforeIt) {
     EXPECT_EQ(controller.phase(), Phase::kFailed);
     EXPECT_EQ(controller.failure()->code, "not-finite");
     EXPECT_EQ(controller.tick(), 3);
+}
+
+TEST_F(Phases, ARequestThatTheKeyDoesNotPermitIsAnsweredWithTheReasonAndReportedOnce) {
+    auto rights = std::make_shared<Rights>(make_rights({"*"}, {"force"}, false).value());
+    rights->key = "pilot";
+    const Address asking{Role::kClient, 9};
+    const auto ask = [&](std::uint64_t number, const ControlAction& action) {
+        bus.rights = rights;
+        send(asking, ControlRequest{number, action});
+        bus.rights = nullptr;
+        return bus.take<ControlReply>(asking);
+    };
+    for (std::uint64_t number = 1; number <= 5; ++number) {
+        const auto replies = ask(number, QuitRun{});
+        ASSERT_EQ(replies.size(), 1u);
+        EXPECT_EQ(replies[0].number, number);
+        EXPECT_EQ(std::get<ControlRefused>(replies[0].outcome).code, "not-permitted");
+    }
+    EXPECT_TRUE(controller.control().take_calls().empty());
+    const std::vector<std::string> lines = controller.take_notices();
+    ASSERT_EQ(lines.size(), 1u);
+    EXPECT_NE(lines[0].find("'pilot'"), std::string::npos) << lines[0];
+    EXPECT_TRUE(ask(6, GetStatus{}).empty()) << "the owner of the run answers";
+    EXPECT_EQ(controller.control().take_calls().size(), 1u);
+    rights->steers = true;
+    EXPECT_TRUE(ask(7, QuitRun{}).empty());
+    EXPECT_EQ(controller.control().take_calls().size(), 1u);
 }
 
 }  // namespace

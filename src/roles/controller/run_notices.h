@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -14,6 +15,13 @@ namespace roboss {
 class RunNotices {
   public:
     void add(std::string text) { lines_.push_back(std::move(text)); }
+    /// What was refused, and why: of equal ones only the first, and no more than a hundred.
+    void add_refusal(const std::string& what, const Error& why) {
+        constexpr std::size_t kMost = 100;
+        std::string line =
+            what + " are refused: " + why.message + (why.code.empty() ? "" : " [" + why.code + "]");
+        if (refusals_.size() < kMost && refusals_.insert(line).second) add(std::move(line));
+    }
     /// An invalid message that was ignored at `tick`.
     void dropped(const char* message, Tick tick, const std::string& why) {
         add(std::string("dropped=") + message + " tick=" + std::to_string(tick) + " reason=\"" + why + "\"");
@@ -28,6 +36,7 @@ class RunNotices {
 
   private:
     std::vector<std::string> lines_;
+    std::set<std::string> refusals_;  // that were reported
     std::optional<Error> failure_;
 };
 
