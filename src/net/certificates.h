@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "core/result.h"
 
@@ -41,6 +42,10 @@ Result<KeyPair> new_authority(const std::string& name, int days);
 /// A key for this holder, and its certificate, signed by the authority. An Error: the authority's texts are
 /// no certificate and key, or the name is empty or longer than 64 bytes.
 Result<KeyPair> new_certificate(const KeyPair& authority, const Holder& holder, int days);
+
+/// A certificate that signs itself, for a server that browsers call by these names: names of computers and IP
+/// addresses; what is neither is left out.
+Result<KeyPair> new_server_certificate(const std::vector<std::string>& names, int days);
 
 /// Whom a certificate (PEM) names. An Error: the text is none of ours.
 Result<Holder> holder_of(const std::string& certificate);

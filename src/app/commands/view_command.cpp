@@ -27,7 +27,7 @@ struct ViewCommandOptions {
 
 int view(const ViewCommandOptions& o) {
     Member member("view", o.member);
-    Result<std::unique_ptr<Gateway>> gateway = open_viewer(o.viewer, true);
+    Result<std::unique_ptr<Gateway>> gateway = open_viewer(o.viewer, true, o.member.network.insecure);
     if (!gateway) return member.report_error(gateway.error()), kBadInput;
     if (!member.open()) return kBadInput;
     print_urls(*gateway.value());
