@@ -11,17 +11,15 @@
 #include "app/output/say.h"
 #include "app/viewer/page_users.h"
 #include "gateway/access.h"
-#include "net/certificates.h"
 #include "net/key_folder.h"
 #include "net/meeting_place.h"
-#include "net/network.h"
+#include "net/run_keys.h"
 
 namespace roboss {
 namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kCertificate_days = 365;
 constexpr const char* kUrlsOf = ".urls";  // behind the process, in the folder of runs
 
 /// Writes addresses with tokens to a file that only this user can read. The answer: where it is.
@@ -70,9 +68,7 @@ Result<std::optional<PageCertificate>> certificate_for(const ViewerOptions& o, b
     if (!at) return at.error();
     if (insecure || is_loopback(std::string_view(at.value().address)))
         return std::optional<PageCertificate>();
-    std::vector<std::string> names = own_names();
-    names.push_back(at.value().address);
-    const Result<KeyPair> made = new_server_certificate(names, kCertificate_days);
+    const Result<KeyPair> made = new_page_keys(at.value().address);
     if (!made) return made.error();
     return std::optional(PageCertificate{made.value().certificate, made.value().key});
 }
