@@ -57,8 +57,7 @@ std::string refusal_page(std::string_view why) {
            escaped(why) +
            "</p><p>Open the address that the run printed at its start (<code>roboss: viewer at ...</code>), "
            "with the token in it, or with the token that you were given. Each start of a run makes new "
-           "tokens, "
-           "but for users who have tokens of their own. On the computer of the run, use "
+           "tokens, but not for users who have their own. On the computer of the run, use "
            "<code>localhost</code> or <code>127.0.0.1</code>.</p></html>\n";
 }
 

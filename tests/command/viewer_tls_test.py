@@ -33,7 +33,7 @@ class Served:
         self.process = subprocess.Popen([ROBOSS, "run", ONE, "--paused", *map(str, options)], stdout=subprocess.DEVNULL,
                                         stderr=subprocess.PIPE, text=True)
         self.said = ""
-        self.url = self.hears(r"viewer at (\S+?);?\n")
+        self.url = self.hears(r"viewer at (\S+?)[;\s]")
         self.scheme, self.port = re.match(r"(https?)://[^/]+:(\d+)/", self.url).groups()
 
     def __enter__(self):
