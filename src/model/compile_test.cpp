@@ -206,6 +206,43 @@ TEST(Compile, ABodyOnAHubAtItsCentreIsMobileWhereItsSurfaceIs) {
     EXPECT_NEAR(compile_one(m).type().bodies[0].inverse_mass_linear, gyration2 / I(2, 2) / 3, 1e-12);
 }
 
+/// Spheres a meter apart, each joined to the one before.
+ModelSpec chain(int links, JointSpecKind kind) {
+    ModelSpec m;
+    m.name = "chain";
+    m.canonical_link = "0";
+    for (int i = 0; i < links; ++i) {
+        m.links.push_back(link(std::to_string(i), 1.0, box_inertia(1.0, {0.2, 0.2, 0.2}), at_x(i)));
+        if (i > 0)
+            m.joints.push_back(joint(kind, "j" + std::to_string(i), std::to_string(i - 1), std::to_string(i),
+                                     at_x(i - 0.5), {0, 1, 0}));
+    }
+    return m;
+}
+
+TEST(Compile, AChainOfManyWeldsIsOneBody) {
+    const Compiled c = compile_one(chain(50'000, JointSpecKind::kFixed));
+    ASSERT_EQ(c.model->robots.size(), 1u);
+    EXPECT_EQ(c.type().bodies.size(), 1u);
+    EXPECT_DOUBLE_EQ(c.type().mass, 50'000.0);
+}
+
+TEST(Compile, AChainThatIsTooLongToBeSteppedIsLeftOut) {
+    const Compiled c = compile_one(chain(9000, JointSpecKind::kRevolute));
+    EXPECT_TRUE(has(c.diagnostics, "chain-too-long"));
+    EXPECT_TRUE(c.model == nullptr || c.model->robots.empty());
+}
+
+/// Only the joints near a link let it give way; what a chain of any length moves as one body hardly counts.
+TEST(Compile, MobilityAtTheEndOfALongChainDoesNotDependOnItsLength) {
+    const Compiled shorter = compile_one(chain(200, JointSpecKind::kRevolute)),
+                   longer = compile_one(chain(600, JointSpecKind::kRevolute));
+    const double a = shorter.type().bodies[190].inverse_mass_linear,
+                 b = longer.type().bodies[590].inverse_mass_linear;
+    EXPECT_NEAR(a, b, 0.05 * a);
+    EXPECT_GT(b, 0.1);
+}
+
 TEST(Compile, LimitsOfTheAxisReachTheDof) {
     ModelSpec m = pendulum();
     AxisSpec& axis = m.joints[0].axes[0];

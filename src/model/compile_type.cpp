@@ -69,6 +69,7 @@ class PartBuilder {
             add_free_base(root, is_main);
         }
         walk(root);
+        if (!report_long_chains(type, spec_, diagnostics_)) return std::move(part_);
         type.paths = DofPaths(type.dof_parent);
         for (std::size_t j : graph_.cut) add_loop(j);
         add_couplings(couplings_, type, diagnostics_);
@@ -108,14 +109,24 @@ class PartBuilder {
     }
 
     /// Depth first, joints in file order; parents come before children in `bodies`.
-    void walk(std::size_t node) {
-        for (const JointEdge& edge : graph_.edges[node]) {
+    void walk(std::size_t root) {
+        struct Visit {
+            std::size_t node, edge = 0;  // the next one
+        };
+        std::vector<Visit> path{{root}};
+        while (!path.empty()) {
+            const std::size_t node = path.back().node;
+            if (path.back().edge == graph_.edges[node].size()) {
+                path.pop_back();
+                continue;
+            }
+            const JointEdge& edge = graph_.edges[node][path.back().edge++];
             if (joint_done_[edge.joint]) continue;
             if (node == graph_.world && !in_part(edge.to)) continue;
             joint_done_[edge.joint] = 1;
             hangs_on_[edge.to] = {static_cast<int>(part_.type.joints.size()), id_in_part(node)};
             body_of_link_[edge.to] = add_joint(edge, body_of_link_[node]);
-            walk(edge.to);
+            path.push_back({edge.to});
         }
     }
 
@@ -134,7 +145,7 @@ class PartBuilder {
 
     void add_loop(std::size_t index) {
         const JointSpec& spec = spec_.joints[index];
-        const std::size_t parent = *node_index(spec_, spec.parent), child = *link_index(spec_, spec.child);
+        const auto [parent, child] = *graph_.ends[index];
         if (!in_part(child)) return;
         RobotType& type = part_.type;
         Joint joint;
@@ -341,11 +352,13 @@ class PartBuilder {
 };
 
 /// The links that follow each other through couplings of their joints.
-std::vector<std::pair<std::size_t, std::size_t>> coupled_links(const ModelSpec& spec,
+std::vector<std::pair<std::size_t, std::size_t>> coupled_links(const ModelSpec& spec, const JointGraph& graph,
                                                                const std::vector<CouplingSpec>& couplings) {
     const auto moved_by = [&](const std::string& name) -> std::optional<std::size_t> {
         const auto joint = std::ranges::find(spec.joints, name, &JointSpec::name);
-        return joint == spec.joints.end() ? std::nullopt : link_index(spec, joint->child);
+        if (joint == spec.joints.end()) return std::nullopt;
+        const auto& ends = graph.ends[static_cast<std::size_t>(joint - spec.joints.begin())];
+        return ends ? std::optional(ends->child) : std::nullopt;
     };
     std::vector<std::pair<std::size_t, std::size_t>> pairs;
     for (const CouplingSpec& coupling : couplings) {
@@ -373,7 +386,7 @@ std::vector<CompiledPart> compile_parts(const ModelSpec& spec, const Surrounding
     const JointGraph graph = build_joint_graph(spec);
     const std::vector<CouplingSpec> couplings = find_couplings(spec, diagnostics);
     std::vector<CompiledPart> parts;
-    for (const LinkedPart& part : connected_parts(graph, coupled_links(spec, couplings))) {
+    for (const LinkedPart& part : connected_parts(graph, coupled_links(spec, graph, couplings))) {
         const bool is_main = std::ranges::any_of(
             part.links, [&](std::size_t i) { return spec.links[i].name == spec.canonical_link; });
         parts.push_back(PartBuilder(spec, around, graph, couplings, shapes, diagnostics)

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <numeric>
 #include <set>
+#include <string_view>
+#include <unordered_map>
 
 #include "world/joint_type.h"
 
@@ -56,8 +58,22 @@ std::size_t root_of(std::vector<std::size_t>& group, std::size_t i) {
     return i;
 }
 
+/// Of all joints. validate() reports those that name no such link.
+std::vector<std::optional<JointEnds>> find_ends(const ModelSpec& spec) {
+    std::unordered_map<std::string_view, std::size_t> links;
+    for (std::size_t i = 0; i < spec.links.size(); ++i) links.emplace(spec.links[i].name, i);
+    std::vector<std::optional<JointEnds>> ends(spec.joints.size());
+    for (std::size_t j = 0; j < spec.joints.size(); ++j) {
+        const auto parent = links.find(spec.joints[j].parent), child = links.find(spec.joints[j].child);
+        const bool on_world = spec.joints[j].parent == "world";
+        if (child == links.end() || (!on_world && parent == links.end())) continue;
+        ends[j] = {on_world ? spec.links.size() : parent->second, child->second};
+    }
+    return ends;
+}
+
 /// Marks the joints of the spanning forest.
-std::vector<char> span_joints(const ModelSpec& spec) {
+std::vector<char> span_joints(const ModelSpec& spec, const std::vector<std::optional<JointEnds>>& ends) {
     std::vector<std::size_t> order(spec.joints.size()), group(spec.links.size() + 1);
     std::iota(order.begin(), order.end(), std::size_t{0});
     std::iota(group.begin(), group.end(), std::size_t{0});
@@ -69,9 +85,8 @@ std::vector<char> span_joints(const ModelSpec& spec) {
     std::vector<char> in_tree(spec.joints.size(), 0);
     for (std::size_t j : order) {
         const JointSpec& joint = spec.joints[j];
-        const auto parent = node_index(spec, joint.parent), child = link_index(spec, joint.child);
-        if (joint_type(joint.kind).couples || !parent || !child) continue;
-        const std::size_t a = root_of(group, *parent), b = root_of(group, *child);
+        if (joint_type(joint.kind).couples || !ends[j]) continue;
+        const std::size_t a = root_of(group, ends[j]->parent), b = root_of(group, ends[j]->child);
         if (a == b) continue;
         group[std::max(a, b)] = std::min(a, b);
         in_tree[j] = 1;
@@ -101,37 +116,26 @@ LinkedPart connected_part(const JointGraph& graph, std::size_t start, std::size_
 
 }  // namespace
 
-std::optional<std::size_t> link_index(const ModelSpec& spec, const std::string& name) {
-    for (std::size_t i = 0; i < spec.links.size(); ++i)
-        if (spec.links[i].name == name) return i;
-    return std::nullopt;
-}
-
-std::optional<std::size_t> node_index(const ModelSpec& spec, const std::string& name) {
-    return name == "world" ? std::optional(spec.links.size()) : link_index(spec, name);
-}
-
 JointGraph build_joint_graph(const ModelSpec& spec) {
     JointGraph graph;
     graph.world = spec.links.size();
     graph.edges.resize(spec.links.size() + 1);
     graph.neighbours.resize(spec.links.size() + 1);
     graph.is_child.assign(spec.links.size() + 1, 0);
-    const std::vector<char> in_tree = span_joints(spec);
+    graph.ends = find_ends(spec);
+    const std::vector<char> in_tree = span_joints(spec, graph.ends);
     for (std::size_t j = 0; j < spec.joints.size(); ++j) {
-        const JointSpec& joint = spec.joints[j];
-        if (joint_type(joint.kind).couples) continue;
-        const auto parent = node_index(spec, joint.parent), child = link_index(spec, joint.child);
-        if (!child || !parent) continue;  // reported by validate()
-        graph.is_child[*child] = 1;
-        graph.neighbours[*parent].push_back(*child);
-        graph.neighbours[*child].push_back(*parent);
+        if (joint_type(spec.joints[j].kind).couples || !graph.ends[j]) continue;
+        const auto [parent, child] = *graph.ends[j];
+        graph.is_child[child] = 1;
+        graph.neighbours[parent].push_back(child);
+        graph.neighbours[child].push_back(parent);
         if (!in_tree[j]) {
             graph.cut.push_back(j);
             continue;
         }
-        graph.edges[*parent].push_back({j, *child, false});
-        graph.edges[*child].push_back({j, *parent, true});
+        graph.edges[parent].push_back({j, child, false});
+        graph.edges[child].push_back({j, parent, true});
     }
     return graph;
 }

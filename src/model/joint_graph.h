@@ -18,18 +18,20 @@ struct JointEdge {
     bool reversed = false;
 };
 
+/// The nodes that a joint connects.
+struct JointEnds {
+    std::size_t parent = 0, child = 0;
+};
+
 /// A node is a link; node links.size() is the world.
 struct JointGraph {
+    std::vector<std::optional<JointEnds>> ends;        // of all joints; none: it names no such link
     std::vector<std::vector<JointEdge>> edges;         // of the spanning forest, joints in file order
     std::vector<std::size_t> cut;                      // joints that would close a loop, ascending
     std::vector<std::vector<std::size_t>> neighbours;  // by any joint, cut ones too
     std::vector<char> is_child;                        // a link that some joint names as its child
     std::size_t world = 0;
 };
-
-std::optional<std::size_t> link_index(const ModelSpec& spec, const std::string& name);
-/// The node of a joint's end: a link or the world; nullopt: no such link (validate() reports it).
-std::optional<std::size_t> node_index(const ModelSpec& spec, const std::string& name);
 
 /// Of the joints around a loop the one is cut that has least to do: fixed joints never where another one can
 /// be, joints that others follow or sensors read hardly, then those with motor gains, limits, friction,

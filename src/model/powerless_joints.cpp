@@ -1,6 +1,8 @@
 // Joints with an effort limit of 0: exporters write effort="0" velocity="0" where the fields were left empty
 // in.
 #include <algorithm>
+#include <string_view>
+#include <unordered_map>
 
 #include "model/compile_type.h"
 
@@ -11,9 +13,12 @@ void report_powerless(const RobotType& type, const ModelSpec& spec, Diagnostics&
     std::string names;
     std::size_t count = 0;
     SourceLocation where;
+    std::unordered_map<std::string_view, const JointSpec*> of_names;
+    for (const JointSpec& joint : spec.joints) of_names.emplace(joint.name, &joint);
     for (const Joint& joint : type.joints) {
-        const auto of_file = std::ranges::find(spec.joints, joint.name, &JointSpec::name);
-        if (of_file == spec.joints.end()) continue;
+        const auto named = of_names.find(joint.name);
+        if (named == of_names.end()) continue;
+        const JointSpec* of_file = named->second;
         const auto is_driven = [](const AxisSpec& axis) { return axis.max_effort != 0 || axis.mimic; };
         if (of_file->axes.empty() || std::ranges::any_of(of_file->axes, is_driven)) continue;
         if (count == 0) where = of_file->where;

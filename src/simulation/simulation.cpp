@@ -168,17 +168,19 @@ Result<> Simulation::run_until(Tick target, const std::function<bool()>& go_on) 
     return Ok{};
 }
 
-const std::vector<RobotState>& Simulation::states() {
+bool Simulation::await_states(const std::function<bool()>& go_on) {
     if (controller_.states() == nullptr) controller_.request_states();
-    turn_until([&] { return controller_.states() != nullptr; });
-    return *controller_.states();
+    bool stop = false;
+    turn_until([&] {
+        stop = controller_.states() == nullptr && !go_on();
+        return controller_.states() != nullptr || stop;
+    });
+    return !stop;
 }
 
-bool Simulation::states_within(std::int64_t ms_max) {
-    if (controller_.states() == nullptr) controller_.request_states();
-    const std::int64_t end_ms = bus_->now_ms() + ms_max;
-    turn_until([&] { return controller_.states() != nullptr || bus_->now_ms() > end_ms; });
-    return controller_.states() != nullptr;
+const std::vector<RobotState>& Simulation::states() {
+    (void)await_states([] { return true; });
+    return *controller_.states();
 }
 
 StepProbe& Simulation::probe() {

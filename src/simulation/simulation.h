@@ -79,9 +79,11 @@ class Simulation {
     std::span<const ContactReport> contacts() { return probe().contacts(); }
     /// What the joints of the robot bear in the same tick.
     std::vector<JointReaction> joint_reactions(RobotId robot) { return probe().joint_reactions(robot); }
-    /// True when states() are here, after a wait of at most this long: the Simulators of a run that failed
-    /// may be gone, and the states with them.
-    bool states_within(std::int64_t ms_max);
+    /// Waits until states() returns at once. False: `go_on`, which is called now and then, said no. Simulators
+    /// in other processes may be lost, and then others have to step again what they held.
+    bool await_states(const std::function<bool()>& go_on);
+    /// The run has failed (run_until() says why).
+    bool failed() const { return controller_.failure().has_value(); }
     /// Everything needed to continue exactly.
     SavedRun saved_run();
     /// Writes saved_run() to a file. An Error if that fails.

@@ -1,4 +1,4 @@
-"""Hosts of a test: network namespaces on one switch, whose cables lose and delay what passes, by seed. Needs root, ip(8) and
+"""Hosts of a test: network namespaces on one switch, whose cables lose, repeat and delay packets, by seed. Needs root, ip(8) and
 /dev/net/tun; all of it is gone when the block ends."""
 import fcntl
 import heapq
@@ -30,6 +30,11 @@ def missing():
     return None
 
 
+def is_fragment(frame):
+    """Of an IPv4 packet: more of it follow, or it is not the first."""
+    return frame[12:14] == b"\x08\x00" and int.from_bytes(frame[20:22], "big") & 0x3FFF != 0
+
+
 def ip(*words):
     subprocess.run(["ip", *map(str, words)], check=True, capture_output=True, text=True)
 
@@ -37,8 +42,8 @@ def ip(*words):
 class Hosts:
     """So many hosts 10.77.0.1, 10.77.0.2 ..., named by name(i)."""
 
-    def __init__(self, count, loss=0.0, delay_s=0.0, seed=1):
-        self.count, self.loss, self.delay_s = count, loss, delay_s
+    def __init__(self, count, loss=0.0, repeat=0.0, delay_s=0.0, drops_fragments=False, seed=1):
+        self.count, self.loss, self.repeat, self.delay_s, self.drops_fragments = count, loss, repeat, delay_s, drops_fragments
         self.chance = random.Random(seed)
         self.taps, self.passed, self.lost = [], 0, 0
         self.done = threading.Event()
@@ -87,11 +92,12 @@ class Hosts:
                         if other == fd:
                             continue
                         self.passed += 1
-                        if self.chance.random() < self.loss:
+                        if self.chance.random() < self.loss or self.drops_fragments and is_fragment(frame):
                             self.lost += 1
                             continue
-                        serial += 1
-                        heapq.heappush(under_way, (time.monotonic() + self.delay_s, serial, other, frame))
+                        for _ in range(2 if self.chance.random() < self.repeat else 1):
+                            serial += 1
+                            heapq.heappush(under_way, (time.monotonic() + self.delay_s, serial, other, frame))
             while under_way and under_way[0][0] <= time.monotonic():
                 _, _, to, frame = heapq.heappop(under_way)
                 try:

@@ -139,6 +139,47 @@ class Simulators(unittest.TestCase):
             controller.end(20)
             self.assertEqual(first.end(SOON_S), 0, first.said())
 
+    def test_those_who_die_while_their_states_are_fetched_hold_up_nothing(self):
+        world = [WORLDS / "pile.sdf", "--until", 8]
+        expected, dt_s, least = embedded(*world)["state_hash"], 0.002, 4
+        with Cluster() as cluster:
+            controller = cluster.controller(*world, "--simulators", 2, "--trace", os.devnull, "--trace-every", dt_s)
+            simulators = [cluster.simulator(), cluster.simulator()]
+            controller.hears("joined", 2)
+            killed = 0
+            while controller.process.poll() is None and killed < 12:
+                time.sleep(0.05)
+                simulators.append(cluster.simulator())
+                controller.hears("joined", 3 + killed, SOON_S)
+                simulators.pop(0).kill_only()
+                killed += 1
+            self.assertEqual(cluster.summary(controller)["state_hash"], expected, controller.said())
+            self.assertGreaterEqual(killed, least)
+
+    def test_a_request_for_states_that_died_is_refused_and_granted_later(self):
+        file, at_end = f"later-{os.getpid()}.roboss", FOLDER / f"end-{os.getpid()}.roboss"
+        with Cluster() as cluster:
+            controller = cluster.controller(*PILE, "--speed", 0.2, "--simulators", 1, "--save", at_end, "--save-folder", FOLDER, *Clients.LOGGED)
+            simulator = cluster.simulator()
+            wait_for_tick(controller, 20)
+            self.assertEqual(cluster.start("control", "pause").end(20), 0)
+            simulator.kill_only()
+            refused = cluster.start("control", "save", file)
+            self.assertNotEqual(refused.end(2 * SOON_S), 0)
+            self.assertIn("[no-states]", refused.said())
+            self.assertIn("1 Simulators to join [standstill]", controller.said())
+            simulator = cluster.simulator()
+            granted = cluster.start("control", "save", file)
+            self.assertEqual(granted.end(SOON_S), 0, granted.said())
+            self.assertTrue((FOLDER / file).exists())
+            beyond = tick_of(controller) + 5
+            self.assertEqual(cluster.start("control", "step", 5).end(SOON_S), 0)
+            wait_for_tick(controller, beyond)
+            simulator.kill_only()
+            controller.process.send_signal(signal.SIGINT)
+            self.assertEqual(controller.end(2 * SOON_S), RUN_FAILED, controller.said())
+            self.assertIn("[no-states]", controller.said())
+
     def test_one_that_finds_no_room_is_told_so(self):
         with Cluster() as cluster:
             few = lambda: resource.setrlimit(resource.RLIMIT_NOFILE, (32, 32))

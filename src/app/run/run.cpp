@@ -477,9 +477,8 @@ Summary Run::summary(double wall_s) const {
     return s;
 }
 
-Result<> Run::save_end(bool fine) {
-    constexpr std::int64_t kPatience_ms = 10'000;  // for Simulators that may be gone
-    if (!fine && !simulation_->states_within(kPatience_ms))
+Result<> Run::save_end() {
+    if (!await_states(false))
         return Error{"the state at the end is not saved: the Simulators that have it are gone",
                      "continue from the last checkpoint of a --journal", "no-states"};
     return save_run(o_.save, *model_, saved_run());
@@ -497,7 +496,7 @@ int Run::finish(bool fine, double wall_s) {
         check(dataset_->close());
         say(stderr, "wrote {}\n", dataset_->summary());
     }
-    if (!o_.save.empty() && !abandoned_) check(save_end(fine));
+    if (!o_.save.empty() && !abandoned_) check(save_end());
     check(journal_->close());
     take_profile();
     const Summary s = summary(wall_s);  // the journal has its last size

@@ -81,7 +81,7 @@ class Run {
     bool takes_picture() const { return !o_.snapshot.file.empty() || o_.sense.wanted(); }
     bool writes_to_standard_output() const;
     Summary summary(double wall_s) const;
-    Result<> save_end(bool fine);
+    Result<> save_end();
     int finish(bool fine, double wall_s);
 
     // run_loop.cpp: the time between
@@ -140,6 +140,9 @@ class Run {
     void take_profile();
 
     bool advance_to(Tick target);
+    /// Waits for the states at this tick. False: no Simulator has them, 10 s after the run was interrupted or
+    /// failed (with `request`: after the call), or no process is left that could bring them back.
+    bool await_states(bool request);
     void report_notices();
     void stop(const Error& why);
     /// Prints why the run cannot continue, and keeps it for pages and members. Returns false.

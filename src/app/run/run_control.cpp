@@ -31,6 +31,13 @@ Error no_journal() {
             "start it with --journal FILE (run.sh --live does)", "no-journal"};
 }
 
+/// Requests that save or change the world, and so have to wait for all of it.
+template <class A>
+constexpr bool needs_states(const A&) {
+    return std::is_same_v<A, SaveRun> || std::is_same_v<A, ChangeAccuracy> || std::is_same_v<A, AddModels> ||
+           std::is_same_v<A, RemoveRobots> || std::is_same_v<A, CopyRobots> || std::is_same_v<A, RestoreRobots>;
+}
+
 }  // namespace
 
 void Run::take_requests() {
@@ -101,6 +108,10 @@ ControlOutcome Run::execute(const ControlAction& action) {
                 return ControlRefused(no_journal());  // take() serves those of a run with a journal
             } else {
                 const Tick tick = simulation_->tick();
+                if (needs_states(a) && !await_states(true))
+                    return ControlRefused(
+                        Error{"the Simulators that have the states at this tick are gone",
+                              "repeat the request once a Simulator has joined", "no-states"});
                 Done done = act(a);
                 if (!done) return ControlRefused(done.error());
                 return ControlDone{tick, std::move(done).value()};

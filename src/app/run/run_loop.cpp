@@ -60,6 +60,24 @@ bool Run::advance_to(Tick target) {
     return true;
 }
 
+bool Run::await_states(bool request) {
+    constexpr std::int64_t kPatience_ms = 10'000;
+    Result<> looked_after = Ok{};
+    StandstillWatch standstill;
+    std::optional<std::int64_t> since_ms;
+    const bool here = simulation_->await_states([&] {
+        const std::int64_t now_ms = monotonic_ms();
+        if (auto line = standstill.look(*simulation_, now_ms)) notices_.push_back(std::move(*line));
+        show_progress();
+        looked_after = members_->look_after(*simulation_);
+        const bool ends = request || interrupted() || simulation_->failed();
+        if (ends && !since_ms) since_ms = now_ms;
+        return looked_after.ok() && (!since_ms || now_ms - *since_ms < kPatience_ms);
+    });
+    if (!looked_after) abandoned_ = true, fail(looked_after.error());
+    return here;
+}
+
 /// Says once why the run cannot continue, behind what happened before.
 void Run::stop(const Error& why) {
     report_notices();
@@ -125,6 +143,8 @@ bool Run::take_picture() {
 /// Writes and checks what is due at this tick.
 bool Run::look(const Schedule& due) {
     const Tick now = simulation_->tick();
+    const bool looks = due.trace.at(now) || due.contacts.at(now) || due.dataset.at(now) || due.picture.at(now);
+    if (looks && !await_states(false)) return !abandoned_ && (interrupted() || advance_to(now));
     if (due.trace.at(now) && !write_trace()) return false;
     if (due.contacts.at(now) && !write_contacts()) return false;
     if (due.dataset.at(now) && !write_dataset()) return false;

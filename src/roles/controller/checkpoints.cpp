@@ -2,6 +2,7 @@
 #include "roles/controller/checkpoints.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "core/check.h"
 #include "wire/state_block.h"
@@ -68,10 +69,11 @@ void Checkpoints::committed(const Islands& islands, double busiest_s) {
 }
 
 void Checkpoints::begin(StateDirectory& directory, const Roster& roster) {
-    if (next_) return;
-    requested_ = false;
-    if (base_.tick == directory.tick() || directory.anything_lost(roster)) return;
-    next_ = Checkpoint{directory.tick(), nullptr, {}};
+    const bool here = base_.tick == directory.tick();
+    if (next_ || (!here && directory.anything_lost(roster))) return;
+    const bool requested = std::exchange(requested_, false);
+    if (here) return;
+    next_ = Checkpoint{directory.tick(), nullptr, {}, requested};
     next_->touched.reset(model_->robots.size());
     directory.want_checkpoint();
     work_s_ = 0;
@@ -111,6 +113,7 @@ bool Checkpoints::replace(StateDirectory& directory) {
 std::optional<Tick> Checkpoints::abandon(StateDirectory& directory) {
     if (!next_ || pull_.complete()) return std::nullopt;
     const Tick tick = next_->tick;
+    requested_ = requested_ || next_->requested;
     pull_.cancel();
     next_.reset();
     directory.forget_checkpoint();

@@ -57,7 +57,7 @@ class Checkpoints {
     /// recomputed from it.
     bool replace(StateDirectory& directory);
     /// A Simulator was lost, and so are states that are not here yet. Returns the tick of the abandoned
-    /// checkpoint. None: nothing was being fetched.
+    /// checkpoint. None: nothing was being fetched. A request for it is kept.
     std::optional<Tick> abandon(StateDirectory& directory);
 
     /// All states at `tick`, if they are here.
@@ -68,6 +68,7 @@ class Checkpoints {
         Tick tick = 0;
         States states;  // null: not being fetched yet
         UnionFind touched;
+        bool requested = false;
     };
     std::shared_ptr<const Model> model_;
     Checkpoint base_;

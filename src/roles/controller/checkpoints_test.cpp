@@ -119,6 +119,18 @@ TEST_F(CheckpointsAtTickZero, ALossAbandonsWhatIsNotHereYet) {
     EXPECT_FALSE(checkpoints.fetched());
 }
 
+TEST_F(CheckpointsAtTickZero, ARequestSurvivesALoss) {
+    checkpoints.request();
+    checkpoints.begin(directory, roster);
+    EXPECT_FALSE(checkpoints.requested());
+    advance();
+    roster.seat(1).alive = false;
+    EXPECT_EQ(checkpoints.abandon(directory), 4);
+    EXPECT_TRUE(checkpoints.requested());
+    checkpoints.begin(directory, roster);
+    EXPECT_TRUE(checkpoints.requested()) << "nothing can be fetched before the lost state is back";
+}
+
 TEST_F(CheckpointsAtTickZero, AFetchedOneSurvivesALoss) {
     checkpoints.begin(directory, roster);
     fetch();
