@@ -179,7 +179,7 @@ class Simulation(Run):
             self._view._show()
 
     def view(self, port: Optional[int] = None, *, address: str = "127.0.0.1", role: str = "steer",
-             height: int = 480) -> View:
+             height: int = 480, insecure: bool = False) -> View:
         """Shows this simulation in browsers, on the page of docs/viewer.md: what `step` does, as it is done.
 
         The server runs in this process until View.close(), or until the simulation or the program ends. A simulation
@@ -187,9 +187,11 @@ class Simulation(Run):
 
         Args:
             port: None: 8090, or the next one that is free; a number: this one, or the next one that is free.
-            address: to listen at; with another one than loopback, the `url` carries a token.
+            address: to listen at; with another one than loopback, the page is served over TLS, the `url` carries a
+                token, and `View.fingerprint` is that of the certificate, for browsers to compare.
             role: the most that a page may do: "watch" or "steer" (order robots: drag, push, set joints).
             height: of the frame in a notebook, pixels.
+            insecure: without TLS, also beyond loopback.
 
         Raises:
             ViewError: it cannot listen there.
@@ -201,7 +203,7 @@ class Simulation(Run):
         http
         """
         if self._view is None or self._view.closed:
-            self._view = View(self, port, address, role, height)
+            self._view = View(self, port, address, role, height, insecure)
         return self._view
 
     def __repr__(self) -> str:

@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Optional
 
 from . import _core
-from .names import real, text, unknown, whole
+from .names import flag, real, text, unknown, whole
 
 if TYPE_CHECKING:
     from .simulation import Simulation
@@ -40,13 +40,16 @@ class View:
     True
     """
 
-    def __init__(self, simulation: Simulation, port: Optional[int], address: str, role: str, height: int):
+    def __init__(self, simulation: Simulation, port: Optional[int], address: str, role: str, height: int,
+                 insecure: bool):
         if role not in _ROLES:
             raise unknown("role", role, _ROLES)
         port = None if port is None else whole("port", port, 1, 65535)
         host = f"[{address}]" if ":" in text("address", address) else address
-        core = _core.open_view(f"{host}:{port or 8090}", str(_PAGE), role, "roboss in Python")
+        core = _core.open_view(f"{host}:{port or 8090}", str(_PAGE), role, "roboss in Python",
+                               flag("insecure", insecure))
         self.url: str = core.url  #: address of the page, with the token where one is needed
+        self.fingerprint: str = core.fingerprint  #: SHA-256 of its certificate; empty without TLS, as on loopback
         self._core: Optional[_core.View] = core
         self._simulation = weakref.ref(simulation)
         self._height = whole("height", height, 1)

@@ -21,12 +21,13 @@ namespace roboss_python {
 namespace {
 
 std::shared_ptr<LocalView> open(const std::string& listen, const std::string& page_folder,
-                                const std::string& role, const std::string& program) {
+                                const std::string& role, const std::string& program, bool insecure) {
     LocalViewOptions options;
     options.listen = listen;
     options.page_folder = page_folder;
     options.role = parse_page_role(role).value_or(PageRole::kWatch);
     options.program = program;
+    options.insecure = insecure;
     return value_or_raise(LocalView::open(options), "ViewError");
 }
 
@@ -50,12 +51,13 @@ void bind_view(nb::module_& module) {
              nb::arg("poses"));
     nb::class_<LocalView>(module, "View")
         .def_prop_ro("url", [](const LocalView& view) { return view.url(); })
+        .def_prop_ro("fingerprint", [](const LocalView& view) { return view.fingerprint(); })
         .def_prop_ro("pages", &LocalView::pages)
         .def("take_notices", &LocalView::take_notices)
         .def("say_farewell", &LocalView::say_farewell, nb::arg("reason"),
              nb::call_guard<nb::gil_scoped_release>());
     module.def("open_view", &open, nb::arg("listen"), nb::arg("page_folder"), nb::arg("role"),
-               nb::arg("program"));
+               nb::arg("program"), nb::arg("insecure"));
 }
 
 }  // namespace roboss_python

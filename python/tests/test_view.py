@@ -1,8 +1,10 @@
 """Simulation.view(): the page, its scene, and when it ends. What pages see and order: tests/gateway/local_view_test.cpp."""
 import gc
+import hashlib
 import json
 import os
 import socket
+import ssl
 import subprocess
 import sys
 import time
@@ -164,6 +166,21 @@ def test_frames_itself_in_notebooks(viewed):
     assert f'<iframe src="{view.url}?hide=panels"' in view._repr_html_()
     view.close()
     assert "iframe" not in view._repr_html_()
+
+
+def test_is_encrypted_for_other_computers_unless_insecure(crossroads):
+    unchecked = ssl.create_default_context()
+    unchecked.check_hostname, unchecked.verify_mode = False, ssl.CERT_NONE
+    with crossroads.view(address="0.0.0.0") as view:
+        url = view.url.replace("0.0.0.0", "127.0.0.1")
+        assert url.startswith("https://") and "token=" in url
+        port = int(url.split(":")[2].split("/")[0])
+        shown = ssl.PEM_cert_to_DER_cert(ssl.get_server_certificate(("127.0.0.1", port)))
+        assert view.fingerprint.replace(":", "").lower() == hashlib.sha256(shown).hexdigest()
+        with urllib.request.urlopen(url, timeout=20, context=unchecked) as answer:
+            assert answer.status == 200
+    with crossroads.view(address="0.0.0.0", insecure=True) as view:
+        assert view.url.startswith("http://") and "token=" in view.url and view.fingerprint == ""
 
 
 def test_says_what_is_wrong(crossroads):

@@ -3,13 +3,17 @@
 // rebinding; then Host is that name). Both headers are checked, by parsed address and exact name.
 #include "gateway/access.h"
 
+#include <openssl/evp.h>
+
 #include <algorithm>
+#include <array>
 #include <boost/asio/ip/address.hpp>
 #include <cctype>
 #include <charconv>
 #include <optional>
 #include <random>
 
+#include "core/check.h"
 #include "core/hash.h"
 
 namespace roboss {
@@ -72,18 +76,17 @@ std::string_view value_of(std::string_view text, std::string_view name, char mar
     return {};
 }
 
-/// Takes the same time wherever the two differ.
-bool same_secret(std::string_view a, std::string_view b) {
-    if (a.size() != b.size()) return false;
-    unsigned difference = 0;
-    for (std::size_t i = 0; i < a.size(); ++i)
-        difference |= static_cast<unsigned char>(a[i]) ^ static_cast<unsigned char>(b[i]);
-    return difference == 0;
-}
-
 std::string_view query_of(std::string_view target) {
     const std::size_t mark = target.find('?');
     return mark == std::string_view::npos ? std::string_view() : target.substr(mark + 1);
+}
+
+std::string_view token_in_address(const Visitor& visitor) {
+    return value_of(query_of(visitor.target), "token", '&');
+}
+
+std::string_view token_in_cookie(const Visitor& visitor) {
+    return value_of(visitor.cookie, "roboss_token", ';');
 }
 
 }  // namespace
@@ -112,32 +115,51 @@ Result<ListenAddress> parse_listen_address(const std::string& text) {
     return result;
 }
 
-std::optional<PageRole> Access::role_by(std::string_view token) const {
-    std::optional<PageRole> found;
-    for (std::size_t i = 0; i < tokens_.size(); ++i)
-        if (!tokens_[i].empty() && same_secret(token, tokens_[i])) found = static_cast<PageRole>(i);
-    return found;
+/// Digests may be compared at any speed: who can choose one knows the token.
+std::optional<PageUser> Access::user_by(std::string_view token) const {
+    if (token.empty()) return std::nullopt;
+    const auto found = std::ranges::find(users_, token_digest(token), &PageUser::digest);
+    return found == users_.end() ? std::nullopt : std::optional(*found);
 }
 
 std::string_view Access::named_token(const Visitor& visitor) const {
-    const std::string_view token = value_of(query_of(visitor.target), "token", '&');
-    return role_by(token) ? token : std::string_view();
+    const std::string_view token = token_in_address(visitor);
+    return user_by(token) ? token : std::string_view();
 }
 
-std::optional<PageRole> Access::role_of(const Visitor& visitor) const {
-    if (!by_token_) return all_;
-    if (const auto named = role_by(value_of(query_of(visitor.target), "token", '&'))) return named;
-    return role_by(value_of(visitor.cookie, "roboss_token", ';'));
+std::optional<PageUser> Access::user_of(const Visitor& visitor) const {
+    if (!by_token_) return PageUser{"", all_, ""};
+    if (auto named = user_by(token_in_address(visitor))) return named;
+    return user_by(token_in_cookie(visitor));
+}
+
+bool Access::set_users(std::vector<PageUser> users) {
+    if (users == users_) return false;
+    for (const PageUser& old : users_) former_[old.digest] = old.name;
+    for (const PageUser& user : users) former_.erase(user.digest);
+    users_ = std::move(users);
+    return true;
+}
+
+std::string Access::withdrawal(const PageUser& user) const {
+    const auto found = std::ranges::find(users_, user.digest, &PageUser::digest);
+    if (!by_token_ || (found != users_.end() && *found == user)) return {};
+    if (found == users_.end()) return "the token of " + user.name + " was revoked";
+    return "the rights of " + user.name + " were changed";
 }
 
 std::string Access::refusal(const Visitor& visitor) const {
     if (visitor.hosts != 1) return std::to_string(visitor.hosts) + " Host headers instead of one";
     if (!by_token_ && !names_loopback(visitor.host))
         return "wrong Host header " + quoted(visitor.host) + " [wrong-host]";
-    if (!role_of(visitor))
+    if (!user_of(visitor)) {
+        for (const std::string_view token : {token_in_address(visitor), token_in_cookie(visitor)})
+            if (const auto old = former_.find(token_digest(token)); old != former_.end())
+                return "the token of " + old->second + " was revoked [revoked-token]";
         return query_of(visitor.target).find("token=") == std::string_view::npos
-                   ? "the token that was printed at the start is missing [no-token]"
-                   : "the token is not that of this run [wrong-token]";
+                   ? "the address lacks a token (?token=...) [no-token]"
+                   : "the token is none of this run [wrong-token]";
+    }
     if (!visitor.wants_socket) return {};
     if (visitor.origins == 0) return "the Origin header is missing [no-origin]";
     if (visitor.origins > 1 || !same_origin(visitor.origin, visitor.host))
@@ -150,6 +172,20 @@ std::string random_token() {
     const auto word = [&] { return static_cast<std::uint64_t>(device()) << 32 | device(); };
     const std::uint64_t high = word();
     return to_hex(high) + to_hex(word());
+}
+
+std::string token_digest(std::string_view token) {
+    std::array<unsigned char, EVP_MAX_MD_SIZE> digest{};
+    unsigned bytes = 0;
+    const int done = EVP_Digest(token.data(), token.size(), digest.data(), &bytes, EVP_sha256(), nullptr);
+    ROBOSS_CHECK(done == 1 && bytes == 32, "OpenSSL has SHA-256");
+    std::string text;
+    for (unsigned i = 0; i < bytes; i += 8) {
+        std::uint64_t word = 0;
+        for (unsigned b = 0; b < 8; ++b) word = word << 8 | digest[i + b];
+        text += to_hex(word);
+    }
+    return text;
 }
 
 bool RateLimit::take(std::int64_t now_ms) {

@@ -2,11 +2,12 @@
 // tested without a network.
 #pragma once
 
-#include <array>
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "core/result.h"
 #include "gateway/roles.h"
@@ -33,31 +34,35 @@ struct Visitor {
 
 class Access {
   public:
-    /// The token of each role; empty: no token gives this role.
-    using Tokens = std::array<std::string, 3>;
-
     /// The gateway listens on loopback and needs no token: all get this role.
     explicit Access(PageRole all) : all_(all) {}
-    explicit Access(Tokens tokens) : tokens_(std::move(tokens)), by_token_(true) {}
+    /// These users and no others.
+    explicit Access(std::vector<PageUser> users) : users_(std::move(users)), by_token_(true) {}
 
     /// Why the visitor is refused; empty: it may come in.
     std::string refusal(const Visitor& visitor) const;
-    /// What the visitor may do, by its token; nothing: it may not come in.
-    std::optional<PageRole> role_of(const Visitor& visitor) const;
+    /// Who the visitor is, by its token; nothing: it may not come in.
+    std::optional<PageUser> user_of(const Visitor& visitor) const;
     /// The token that the visitor named in its address, if it is right: it may keep it.
     std::string_view named_token(const Visitor& visitor) const;
-    const std::string& token(PageRole role) const { return tokens_[static_cast<std::size_t>(role)]; }
+    /// From now on these users. Who is left out is refused by name. False: they are those of before.
+    bool set_users(std::vector<PageUser> users);
+    /// Why a page of this user, who was admitted, is refused now; empty: it is not.
+    std::string withdrawal(const PageUser& user) const;
 
   private:
-    std::optional<PageRole> role_by(std::string_view token) const;
+    std::optional<PageUser> user_by(std::string_view token) const;
 
-    Tokens tokens_;
+    std::vector<PageUser> users_;
+    std::map<std::string, std::string> former_;  // names of former users, by the digests of their tokens
     bool by_token_ = false;
     PageRole all_ = PageRole::kAdminister;
 };
 
 /// 128 random bits as hex.
 std::string random_token();
+/// SHA-256 of a token, as hex. Tokens are random, so a slower function would add nothing.
+std::string token_digest(std::string_view token);
 
 /// At most so many in a second, counted in a bucket that fills steadily.
 class RateLimit {

@@ -16,7 +16,8 @@ TEST(Access, ReadsAddresses) {
         EXPECT_FALSE(parse_listen_address(wrong).ok()) << wrong;
 }
 
-const Access::Tokens kSecret{"watchword", "", "secret"};
+const std::vector<PageUser> kSecret{{"", PageRole::kWatch, token_digest("watchword")},
+                                    {"", PageRole::kAdminister, token_digest("secret")}};
 
 /// Why a page whose address bar shows `host` is refused; empty: it is not.
 std::string refusal_of_page(const Access& access, std::string_view host) {
@@ -129,17 +130,50 @@ TEST(Access, ElsewhereTheTokenDecides) {
     EXPECT_EQ(access.refusal({"lab:8090", "http://lab:8090", "/ws?token=secret", "", true}), "");
 }
 
+/// The role that a visitor has; none: it may not come in.
+std::optional<PageRole> role_of(const Access& access, const char* target, const char* cookie = "") {
+    const std::optional<PageUser> user = access.user_of({"lab:8090", "", target, cookie, false});
+    return user ? std::optional(user->role) : std::nullopt;
+}
+
 TEST(Access, ATokenGivesItsRole) {
     const Access access(kSecret);
-    EXPECT_EQ(access.role_of({"lab:8090", "", "/?token=watchword", "", false}), PageRole::kWatch);
-    EXPECT_EQ(access.role_of({"lab:8090", "", "/?token=secret", "", false}), PageRole::kAdminister);
-    EXPECT_EQ(access.role_of({"lab:8090", "", "/", "roboss_token=secret", false}), PageRole::kAdminister);
-    EXPECT_EQ(access.role_of({"lab:8090", "", "/?token=watchword", "roboss_token=secret", false}),
-              PageRole::kWatch)
+    EXPECT_EQ(role_of(access, "/?token=watchword"), PageRole::kWatch);
+    EXPECT_EQ(role_of(access, "/?token=secret"), PageRole::kAdminister);
+    EXPECT_EQ(role_of(access, "/", "roboss_token=secret"), PageRole::kAdminister);
+    EXPECT_EQ(role_of(access, "/?token=watchword", "roboss_token=secret"), PageRole::kWatch)
         << "the address counts more than what the browser kept";
-    EXPECT_EQ(access.role_of({"lab:8090", "", "/?token=", "", false}), std::nullopt);
-    EXPECT_EQ(access.role_of({"lab:8090", "", "/", "", false}), std::nullopt);
-    EXPECT_EQ(Access(PageRole::kSteer).role_of({"localhost", "", "/", "", false}), PageRole::kSteer);
+    EXPECT_EQ(role_of(access, "/?token="), std::nullopt);
+    EXPECT_EQ(role_of(access, "/"), std::nullopt);
+    EXPECT_EQ(role_of(Access(PageRole::kSteer), "/"), PageRole::kSteer);
+    EXPECT_EQ(role_of(Access(std::vector<PageUser>{{"ann", PageRole::kSteer, ""}}), "/?token="), std::nullopt)
+        << "an empty digest is of no token";
+}
+
+TEST(Access, ADigestIsNoToken) {
+    const Access access(kSecret);
+    EXPECT_EQ(token_digest("abc"), "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
+    EXPECT_EQ(role_of(access, ("/?token=" + token_digest("secret")).c_str()), std::nullopt);
+}
+
+TEST(Access, AFormerUserIsRefusedByName) {
+    const PageUser ann{"ann", PageRole::kSteer, token_digest("a")},
+        ben{"ben", PageRole::kWatch, token_digest("b")};
+    Access access(std::vector{ann, ben});
+    EXPECT_FALSE(access.set_users({ann, ben})) << "nothing has changed";
+    EXPECT_EQ(access.user_of({"lab", "", "/?token=a", "", false}), ann);
+    EXPECT_TRUE(access.set_users({ben}));
+    EXPECT_EQ(role_of(access, "/?token=a"), std::nullopt);
+    for (const Visitor& visitor : {Visitor{"lab", "", "/?token=a", "", false, 1, 0},
+                                   Visitor{"lab", "", "/", "roboss_token=a", false, 1, 0}})
+        EXPECT_EQ(access.refusal(visitor), "the token of ann was revoked [revoked-token]");
+    EXPECT_EQ(access.withdrawal(ann), "the token of ann was revoked");
+    EXPECT_EQ(access.withdrawal(ben), "");
+    PageUser less = ben;
+    less.role = PageRole::kAdminister;
+    EXPECT_TRUE(access.set_users({less, ann}));
+    EXPECT_EQ(access.withdrawal(ben), "the rights of ben were changed");
+    EXPECT_EQ(role_of(access, "/?token=a"), PageRole::kSteer) << "ann is back";
 }
 
 TEST(Access, TokensAreLongAndDiffer) {

@@ -31,6 +31,10 @@ const std::vector<std::string>& Gateway::other_urls() const {
     return parts_->server->other_urls();
 }
 
+const std::string& Gateway::fingerprint() const {
+    return parts_->server->fingerprint();
+}
+
 void Gateway::advance(Bus& bus) {
     parts_->watcher.advance(bus);
 }

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,6 +17,11 @@
 
 namespace roboss {
 
+/// PEM texts: a certificate, behind it those between it and its authority, and its key.
+struct PageCertificate {
+    std::string certificate, key;
+};
+
 struct GatewayOptions {
     std::string listen = "8090";  // [ADDRESS:]PORT
     std::string page_folder;      // empty: where it was built or installed
@@ -24,6 +30,11 @@ struct GatewayOptions {
     bool framed = false;                    // pages of this computer (a notebook) may show it in a frame
     bool journal = false;                   // the run keeps one: pages offer to rewind
     PageRole role = PageRole::kAdminister;  // the greatest that a page gets
+    std::optional<PageCertificate> certificate{};  // the page is served over TLS, and not otherwise
+    bool insecure = false;                         // without TLS also for other computers
+    /// Who may open the page; called in the gateway's thread, once a second. Empty: everybody on loopback,
+    /// elsewhere who has a token of this run.
+    std::function<Result<std::vector<PageUser>>()> users{};
     /// A new address for the Bus, never used before.
     std::function<Address()> new_address;
 };
@@ -35,14 +46,16 @@ struct GatewayLoad {
 
 class Gateway {
   public:
-    /// Listens at once; an Error says why it cannot.
+    /// Listens at once; an Error says why it cannot. [unencrypted]: beyond loopback it needs a certificate.
     static Result<std::unique_ptr<Gateway>> open(const GatewayOptions& options);
     ~Gateway();
 
     /// Where browsers find it, with the token if one is needed.
     const std::string& url() const;
-    /// For pages of lower roles, with their tokens; none on loopback.
+    /// For pages of lower roles, with their tokens; none on loopback, or if users have tokens of their own.
     const std::vector<std::string>& other_urls() const;
+    /// SHA-256 of the certificate, as browsers show it; empty: the page is not served over TLS.
+    const std::string& fingerprint() const;
     /// The run's side: a turn. Never waits; costs nothing while nobody watches.
     void advance(Bus& bus);
     /// Refusals and such, one line each, since the last call.

@@ -56,30 +56,52 @@ std::string refusal_page(std::string_view why) {
            "margin:12vh auto;padding:0 1rem}</style><h1>The viewer refused this request</h1><p>Reason: " +
            escaped(why) +
            "</p><p>Open the address that the run printed at its start (<code>roboss: viewer at ...</code>), "
-           "with "
-           "the token in it. Each start of a run makes new tokens. On the computer of the run, use "
+           "with the token in it, or with the token that you were given. Each start of a run makes new "
+           "tokens, but not for users who have their own. On the computer of the run, use "
            "<code>localhost</code> or <code>127.0.0.1</code>.</p></html>\n";
 }
 
 }  // namespace
 
 HttpSession::HttpSession(asio::ip::tcp::socket&& socket, ServerCore& core)
-    : stream_(std::move(socket)), core_(core), peer_(name_of(stream_.socket())) {}
+    : stream_(std::move(socket)), core_(core), peer_(name_of(stream_.tcp().socket())) {}
 
 HttpSession::~HttpSession() {
     core_.connection_ended(this);
+}
+
+void HttpSession::start() {
+    if (core_.tls() == nullptr) return read();
+    stream_.tcp().expires_after(kPatience);
+    idle_since_ms_ = steady_ms();
+    beast::async_detect_ssl(stream_.tcp(), buffer_,
+                            [self = shared_from_this()](beast::error_code error, bool speaks_tls) {
+                                if (error) return self->close();
+                                speaks_tls ? self->shake_hands() : self->read();
+                            });
+}
+
+void HttpSession::shake_hands() {
+    stream_.shake_hands(*core_.tls(), buffer_, [self = shared_from_this()](beast::error_code error) {
+        if (!error) return self->read();
+        self->close();
+        if (error != asio::error::operation_aborted && error != beast::error::timeout)
+            self->core_.notice("viewer: a TLS handshake with " + self->peer_ + " failed: " + error.message() +
+                               " [tls-handshake]");
+    });
 }
 
 void HttpSession::read() {
     parser_.emplace();
     parser_->header_limit(kHeaderBytesMax);
     parser_->body_limit(0);
-    stream_.expires_after(kPatience);
+    stream_.tcp().expires_after(kPatience);
     idle_since_ms_ = steady_ms();
     http::async_read(
         stream_, buffer_, *parser_, [self = shared_from_this()](beast::error_code error, std::size_t) {
             if (error == http::error::end_of_stream || error == asio::error::operation_aborted ||
-                error == beast::error::timeout || error == asio::error::connection_reset)
+                error == beast::error::timeout || error == asio::error::connection_reset ||
+                error == asio::ssl::error::stream_truncated || error == asio::error::eof)
                 return self->stream_.close();
             if (error) {
                 self->request_ = {};
@@ -93,6 +115,7 @@ void HttpSession::read() {
 }
 
 void HttpSession::serve() {
+    if (core_.tls() != nullptr && !stream_.encrypted()) return lead_to_tls();
     const std::string_view path = path_of(view_of(request_.target()));
     const bool socket = path == "/ws";
     const Visitor visitor{view_of(request_[http::field::host]),
@@ -106,14 +129,14 @@ void HttpSession::serve() {
         return refuse(http::status::forbidden, refusal);
     if (request_.method() != http::verb::get && request_.method() != http::verb::head)
         return refuse(http::status::method_not_allowed, "only GET and HEAD are allowed");
-    if (socket) return upgrade(core_.access().role_of(visitor).value_or(PageRole::kWatch));
+    if (socket) return upgrade(core_.access().user_of(visitor).value_or(PageUser{}));
     if (path == "/scene") return serve_scene();
     Answer answer = answer_for(path);
     answer.kept_token = core_.access().named_token(visitor);
     send(std::move(answer));
 }
 
-void HttpSession::upgrade(PageRole role) {
+void HttpSession::upgrade(const PageUser& user) {
     if (!core_.has_room(peer_))
         return refuse(http::status::service_unavailable,
                       "too many pages are open; close one of them [too-many-pages]");
@@ -124,9 +147,24 @@ void HttpSession::upgrade(PageRole role) {
         return refuse(http::status::bad_request,
                       std::string("the WebSocket does not offer the subprotocol ") +
                           viewer_protocol::kSubprotocol + " [no-subprotocol]");
-    auto page = std::make_shared<PageSession>(std::move(stream_), core_, core_.next_page(), peer_, role);
+    auto page = std::make_shared<PageSession>(std::move(stream_), core_, core_.next_page(), peer_, user);
     core_.admit(page);
     page->start(request_);
+}
+
+/// Nothing of the run is said without TLS, but where it is.
+void HttpSession::lead_to_tls() {
+    const std::string_view host = view_of(request_[http::field::host]), target = view_of(request_.target());
+    core_.notice("viewer: a request from " + peer_ + " came without TLS [no-tls]");
+    request_.keep_alive(false);
+    Answer answer;
+    answer.status = http::status::bad_request;
+    answer.body = "This page is served over TLS: its address begins with https://.\n";
+    if (request_.count(http::field::host) == 1 && !host.empty() && target.starts_with('/')) {
+        answer.status = http::status::temporary_redirect;
+        answer.location = "https://" + std::string(host) + std::string(target);
+    }
+    send(std::move(answer));
 }
 
 /// The scene may have to be fetched first.
@@ -194,20 +232,22 @@ void HttpSession::send(Answer answer) {
     response->set("Referrer-Policy", "no-referrer");
     response->set("Cross-Origin-Resource-Policy", "same-origin");
     if (!answer.kept_token.empty())
-        response->set(http::field::set_cookie,
-                      "roboss_token=" + answer.kept_token + "; HttpOnly; SameSite=Strict; Path=/");
+        response->set(http::field::set_cookie, "roboss_token=" + answer.kept_token +
+                                                   "; HttpOnly; SameSite=Strict; Path=/" +
+                                                   (stream_.encrypted() ? "; Secure" : ""));
+    if (!answer.location.empty()) response->set(http::field::location, answer.location);
     response->body() = std::move(answer.body);
     response->prepare_payload();
     if (request_.method() == http::verb::head) response->body().clear();
     response->keep_alive(request_.keep_alive());
-    stream_.expires_after(kPatience);
+    stream_.tcp().expires_after(kPatience);
     http::async_write(stream_, *response,
                       [self = shared_from_this(), response](beast::error_code error, std::size_t bytes) {
                           self->core_.count_sent(bytes);
                           if (error) return self->stream_.close();
                           if (response->keep_alive()) return self->read();
-                          beast::error_code ignored;
-                          self->stream_.socket().shutdown(asio::ip::tcp::socket::shutdown_send, ignored);
+                          self->idle_since_ms_ = steady_ms();
+                          self->stream_.finish(self);
                       });
 }
 

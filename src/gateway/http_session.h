@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 
+#include "gateway/page_stream_session.h"
 #include "gateway/roles.h"
 
 namespace roboss {
@@ -17,7 +18,7 @@ class HttpSession : public std::enable_shared_from_this<HttpSession> {
   public:
     HttpSession(boost::asio::ip::tcp::socket&& socket, ServerCore& core);
     ~HttpSession();
-    void start() { read(); }
+    void start();
     const std::string& peer() const { return peer_; }
     /// Since when it waits for a request, ms; nothing: one is being answered.
     std::optional<std::int64_t> idle_since_ms() const { return idle_since_ms_; }
@@ -32,11 +33,14 @@ class HttpSession : public std::enable_shared_from_this<HttpSession> {
         std::string body;
         std::string kept_token{};    // goes into a cookie
         bool never_changes = false;  // what is at this address
+        std::string location{};      // where it is instead
     };
 
+    void shake_hands();
     void read();
     void serve();
-    void upgrade(PageRole role);
+    void upgrade(const PageUser& user);
+    void lead_to_tls();
     void serve_scene();
     Answer answer_for(std::string_view path) const;
     Answer mesh(std::string_view number) const;
@@ -44,7 +48,7 @@ class HttpSession : public std::enable_shared_from_this<HttpSession> {
     void send(Answer answer);
     void refuse(boost::beast::http::status status, const std::string& why);
 
-    boost::beast::tcp_stream stream_;
+    PageStream stream_;
     ServerCore& core_;
     std::string peer_;
     boost::beast::flat_buffer buffer_;

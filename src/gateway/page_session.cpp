@@ -27,7 +27,7 @@ const std::string kTooLarge =
 bool has_left(const beast::error_code& error) {
     return error == websocket::error::closed || error == asio::error::operation_aborted ||
            error == asio::error::connection_reset || error == asio::error::broken_pipe ||
-           error == asio::error::eof;
+           error == asio::ssl::error::stream_truncated || error == asio::error::eof;
 }
 
 /// A request that carries a file.
@@ -50,18 +50,18 @@ std::uint64_t number_in(beast::string_view target) {
 
 }  // namespace
 
-PageSession::PageSession(beast::tcp_stream&& stream, ServerCore& core, std::uint64_t number, std::string peer,
-                         PageRole role)
+PageSession::PageSession(PageStream&& stream, ServerCore& core, std::uint64_t number, std::string peer,
+                         PageUser user)
     : socket_(std::move(stream)),
       core_(core),
       number_(number),
       peer_(std::move(peer)),
-      role_(role),
+      user_(std::move(user)),
       timer_(socket_.get_executor()),
       rate_(static_cast<double>(viewer_protocol::kMessagesASecondMax)) {}
 
 void PageSession::start(const Request& request) {
-    beast::get_lowest_layer(socket_).expires_never();
+    socket_.next_layer().tcp().expires_never();
     websocket::stream_base::timeout timeout =
         websocket::stream_base::timeout::suggested(beast::role_type::server);
     timeout.idle_timeout = std::chrono::seconds(kSilent_s);
@@ -71,8 +71,8 @@ void PageSession::start(const Request& request) {
         response.set(beast::http::field::sec_websocket_protocol, viewer_protocol::kSubprotocol);
         response.set(beast::http::field::server, "roboss");
     }));
-    socket_.read_message_max(role_ == PageRole::kWatch ? viewer_protocol::kMessageBytesMax
-                                                       : viewer_protocol::kAdditionBytesMax);
+    socket_.read_message_max(user_.role == PageRole::kWatch ? viewer_protocol::kMessageBytesMax
+                                                            : viewer_protocol::kAdditionBytesMax);
     socket_.write_buffer_bytes(1 << 16);
     socket_.auto_fragment(false);
     before_ = number_in(request.target());
@@ -89,7 +89,12 @@ void PageSession::start(const Request& request) {
 
 void PageSession::close() {
     beast::error_code ignored;
-    beast::get_lowest_layer(socket_).socket().close(ignored);
+    socket_.next_layer().tcp().socket().close(ignored);
+}
+
+std::string PageSession::title() const {
+    return "page " + std::to_string(number_) + " of " +
+           name_of(OpenPage{number_, peer_, user_.role, user_.name});
 }
 
 void PageSession::leave() {
@@ -102,8 +107,7 @@ void PageSession::end(const std::string& why, const std::string& code) {
     const bool says_why =
         std::exchange(open_, false) && !code.empty() && code != "broken" && code != "timeout";
     if (!why.empty())
-        core_.notice("viewer: page " + std::to_string(number_) + " of " + peer_ + ": " + why +
-                     (code.empty() ? "" : " [" + code + "]"));
+        core_.notice("viewer: " + title() + ": " + why + (code.empty() ? "" : " [" + code + "]"));
     timer_.cancel();
     says_why ? close_because(code + ": " + why) : close();
     core_.dismiss(number_, {why, code});

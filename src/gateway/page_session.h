@@ -12,6 +12,7 @@
 
 #include "gateway/access.h"
 #include "gateway/page_request.h"
+#include "gateway/page_stream_session.h"
 #include "gateway/view_state_cache.h"
 
 namespace roboss {
@@ -22,8 +23,7 @@ class PageSession : public std::enable_shared_from_this<PageSession> {
   public:
     using Request = boost::beast::http::request<boost::beast::http::empty_body>;
 
-    PageSession(boost::beast::tcp_stream&& stream, ServerCore& core, std::uint64_t number, std::string peer,
-                PageRole role);
+    PageSession(PageStream&& stream, ServerCore& core, std::uint64_t number, std::string peer, PageUser user);
 
     void start(const Request& request);
     void close();
@@ -31,7 +31,11 @@ class PageSession : public std::enable_shared_from_this<PageSession> {
     void leave();
     std::uint64_t number() const { return number_; }
     const std::string& peer() const { return peer_; }
-    PageRole role() const { return role_; }
+    const PageUser& user() const { return user_; }
+    /// Its number, user and computer, for the log.
+    std::string title() const;
+    /// Disconnects it; it hears why.
+    void expel(const std::string& why, const std::string& code) { end(why, code); }
     const PageWatch& watch() const { return watch_; }
     std::uint64_t sent_bytes() const { return sent_bytes_; }
     bool open() const { return open_; }
@@ -59,11 +63,11 @@ class PageSession : public std::enable_shared_from_this<PageSession> {
     bool state_due();
     bool extras_due();
 
-    boost::beast::websocket::stream<boost::beast::tcp_stream> socket_;
+    boost::beast::websocket::stream<PageStream> socket_;
     ServerCore& core_;
     std::uint64_t number_;
     std::string peer_;  // the address of its computer
-    PageRole role_;
+    PageUser user_;
     boost::asio::steady_timer timer_;
     boost::beast::flat_buffer buffer_;
     RateLimit rate_;

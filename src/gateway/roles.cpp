@@ -53,6 +53,10 @@ const char* name_of(PageRole role) {
     return kNames[static_cast<std::size_t>(role)];
 }
 
+std::string name_of(const OpenPage& page) {
+    return page.user.empty() ? page.address : page.user + " at " + page.address;
+}
+
 std::optional<PageRole> parse_page_role(std::string_view name) {
     for (std::size_t i = 0; i < kNames.size(); ++i)
         if (name == kNames[i]) return static_cast<PageRole>(i);
@@ -83,7 +87,7 @@ Result<> ControlDesk::act(std::uint64_t page, PageRole needed) {
         return not_permitted(self == nullptr ? PageRole::kWatch : self->role, needed);
     if (!holder_) give_to(page);
     if (holder_ == page) return Ok{};
-    return Error{"page " + std::to_string(*holder_) + " of " + holder()->address + " has control",
+    return Error{"page " + std::to_string(*holder_) + " of " + name_of(*holder()) + " has control",
                  "ask for control", "no-control"};
 }
 

@@ -28,12 +28,23 @@ std::optional<PageRole> parse_page_role(std::string_view name);
 /// The least role that may request this.
 PageRole role_needed(const ControlAction& action);
 
+/// Somebody who may open the page, known by a token.
+struct PageUser {
+    std::string name;  // empty: whoever has the token
+    PageRole role = PageRole::kWatch;
+    std::string digest;  // of the token (gateway/access.h)
+    friend bool operator==(const PageUser&, const PageUser&) = default;
+};
+
 /// A page that is open.
 struct OpenPage {
     std::uint64_t number = 0;
     std::string address;  // of its computer
     PageRole role = PageRole::kWatch;
+    std::string user{};  // empty: it has none
 };
+/// "ann at 192.0.2.7", or only the address.
+std::string name_of(const OpenPage& page);
 
 /// Which page has control. A page that acts takes it if no page has it. A page that asks gets it when the
 /// page that has it yields, leaves, or does not reply in time; at once from a page of a lower role.

@@ -1,6 +1,9 @@
-// Finding a port, and the token where one is needed.
+// Finding a port, the certificate, and the tokens where some are needed.
 #include "gateway/server.h"
 
+#include <algorithm>
+
+#include "gateway/page_stream_session.h"
 #include "gateway/server_core_session.h"
 
 namespace roboss {
@@ -8,23 +11,67 @@ namespace {
 
 constexpr int kPortsTried = 50;
 
-/// Without tokens on loopback; else one for each role up to `most`.
-Access access_for(const ListenAddress& at, PageRole most) {
-    if (is_loopback(at.address)) return Access(most);
-    Access::Tokens tokens;
-    for (std::size_t i = 0; i <= static_cast<std::size_t>(most); ++i) tokens[i] = random_token();
-    return Access(tokens);
+/// Who may come in, and the tokens of this run: one for each role, from the least on; none where none is
+/// needed.
+struct Door {
+    Access access;
+    std::vector<std::string> tokens;
+};
+
+Result<Door> door_for(const ListenAddress& at, const GatewayOptions& options) {
+    if (options.users) {
+        Result<std::vector<PageUser>> users = options.users();
+        if (!users) return users.error();
+        return Door{Access(std::move(users).value()), {}};
+    }
+    if (is_loopback(at.address)) return Door{Access(options.role), {}};
+    std::vector<PageUser> holders;
+    std::vector<std::string> tokens;
+    for (std::size_t i = 0; i <= static_cast<std::size_t>(options.role); ++i) {
+        tokens.push_back(random_token());
+        holders.push_back({"", static_cast<PageRole>(i), token_digest(tokens.back())});
+    }
+    return Door{Access(std::move(holders)), std::move(tokens)};
+}
+
+/// No user gets more than the options allow.
+GatewayOptions with_users_limited(GatewayOptions options) {
+    if (!options.users) return options;
+    options.users = [read = options.users, most = options.role]() -> Result<std::vector<PageUser>> {
+        Result<std::vector<PageUser>> users = read();
+        if (users)
+            for (PageUser& user : users.value()) user.role = std::min(user.role, most);
+        return users;
+    };
+    return options;
+}
+
+Result<> check_encrypted(const ListenAddress& at, const GatewayOptions& options) {
+    if (options.certificate || options.insecure || is_loopback(at.address)) return Ok{};
+    return Error{"the page would not be encrypted at " + at.address,
+                 "give it a certificate, or allow that with --insecure", "unencrypted"};
 }
 
 }  // namespace
 
-Result<std::unique_ptr<Server>> Server::open(const GatewayOptions& options,
+Result<std::unique_ptr<Server>> Server::open(const GatewayOptions& wanted,
                                              std::shared_ptr<Exchange> exchange) {
+    const GatewayOptions options = with_users_limited(wanted);
     Result<ListenAddress> address = parse_listen_address(options.listen);
     if (!address) return address.error();
     ListenAddress at = address.value();
+    if (Result<> encrypted = check_encrypted(at, options); !encrypted) return encrypted.error();
+    std::shared_ptr<boost::asio::ssl::context> tls;
+    if (options.certificate) {
+        Result<std::shared_ptr<boost::asio::ssl::context>> made = tls_context(*options.certificate);
+        if (!made) return made.error();
+        tls = std::move(made).value();
+    }
+    Result<Door> door = door_for(at, options);
+    if (!door) return door.error();
     std::unique_ptr<Server> server(new Server());
-    server->core_ = std::make_unique<ServerCore>(options, access_for(at, options.role), std::move(exchange));
+    if (tls) server->fingerprint_ = fingerprint_of(*tls);
+    server->core_ = std::make_unique<ServerCore>(options, door.value().access, tls, std::move(exchange));
     Result<> listening = server->core_->listen(at);
     for (int i = 1; !listening && options.next_port && at.port > 0 && at.port < 65'535 && i < kPortsTried;
          ++i) {
@@ -33,15 +80,17 @@ Result<std::unique_ptr<Server>> Server::open(const GatewayOptions& options,
     }
     if (!listening) return listening.error();
     const std::string host = at.address.find(':') == std::string::npos ? at.address : "[" + at.address + "]";
-    const std::string page = "http://" + host + ":" + std::to_string(server->core_->port()) + "/";
-    const auto url_for = [&](PageRole role) {
-        const std::string& token = server->core_->access().token(role);
-        return token.empty() ? page : page + "?token=" + token;
-    };
-    server->url_ = url_for(options.role);
-    for (int i = static_cast<int>(options.role) - 1; i >= 0 && !is_loopback(at.address); --i)
-        server->other_urls_.push_back(std::string("to ") + name_of(static_cast<PageRole>(i)) + ": " +
-                                      url_for(static_cast<PageRole>(i)));
+    const std::string page =
+        (tls ? "https://" : "http://") + host + ":" + std::to_string(server->core_->port()) + "/";
+    const std::vector<std::string>& tokens = door.value().tokens;
+    server->url_ = tokens.empty() ? page : page + "?token=" + tokens.back();
+    for (std::size_t i = tokens.empty() ? 0 : tokens.size() - 1; i-- > 0;)
+        server->other_urls_.push_back(std::string("to ") + name_of(static_cast<PageRole>(i)) + ": " + page +
+                                      "?token=" + tokens[i]);
+    if (!tls && !is_loopback(at.address))
+        server->core_->notice(
+            "viewer: the page is not encrypted: who is between it and a browser can read its "
+            "tokens and use them [insecure]");
     server->core_->start();
     return server;
 }

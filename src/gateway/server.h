@@ -17,12 +17,13 @@ class ServerCore;
 
 class Server {
   public:
-    static Result<std::unique_ptr<Server>> open(const GatewayOptions& options,
+    static Result<std::unique_ptr<Server>> open(const GatewayOptions& wanted,
                                                 std::shared_ptr<Exchange> exchange);
     ~Server();
 
     const std::string& url() const { return url_; }
     const std::vector<std::string>& other_urls() const { return other_urls_; }
+    const std::string& fingerprint() const { return fingerprint_; }
     std::vector<std::string> take_notices();
     void say_farewell(const RunOver& over);
     GatewayLoad load() const;
@@ -30,7 +31,7 @@ class Server {
   private:
     Server() = default;
     std::unique_ptr<ServerCore> core_;
-    std::string url_;
+    std::string url_, fingerprint_;
     std::vector<std::string> other_urls_;
 };
 

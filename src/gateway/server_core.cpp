@@ -29,6 +29,7 @@ constexpr auto kLatePart = std::chrono::milliseconds(8);
 constexpr auto kSceneWait = std::chrono::seconds(5);
 constexpr std::int64_t kFarewell_ms = 300;
 constexpr std::size_t kFarewellsMax = 64;
+constexpr std::int64_t kUsersEvery_ms = 1'000;
 
 std::string answer_line(std::int64_t id, bool done, const std::string& text) {
     return Json{{"type", "answer"}, {"id", id}, {"done", done}, {"text", text}}.dump();
@@ -46,9 +47,12 @@ std::int64_t steady_ms() {
         .count();
 }
 
-ServerCore::ServerCore(const GatewayOptions& options, Access access, std::shared_ptr<Exchange> exchange)
+ServerCore::ServerCore(const GatewayOptions& options, Access access, std::shared_ptr<asio::ssl::context> tls,
+                       std::shared_ptr<Exchange> exchange)
     : options_(options),
       access_(std::move(access)),
+      tls_(std::move(tls)),
+      users_ms_(steady_ms()),
       files_(find_page_folder(options.page_folder)),
       exchange_(std::move(exchange)),
       io_(1),
@@ -184,7 +188,9 @@ void ServerCore::admit(const std::shared_ptr<PageSession>& page) {
 }
 
 void ServerCore::entered(PageSession& page) {
-    desk_.enter({page.number(), page.peer(), page.role()});
+    const PageUser& user = page.user();
+    desk_.enter({page.number(), page.peer(), user.role, user.name});
+    if (!user.name.empty()) notice("viewer: " + page.title() + " is open; it may " + name_of(user.role));
     send_roles();
 }
 
@@ -235,7 +241,10 @@ void ServerCore::call(PageSession& page, PageRequest&& request) {
     }
     const Result<> may = desk_.act(page.number(), needed);
     send_roles();
-    if (!may) return page.send(answer_line(request.id, may.error()), false);
+    if (!may) {
+        note_refusal(page, may.error());
+        return page.send(answer_line(request.id, may.error()), false);
+    }
     if (exchange_->call(std::move(call))) return;
     page.send(answer_line(request.id, {"too many requests at once", "wait for replies", "busy"}), false);
 }
@@ -246,9 +255,16 @@ void ServerCore::take(PageSession& page, const PageDesk& request, std::int64_t i
                           : request.kind == PageDesk::Kind::kYield
                               ? desk_.yield(page.number(), request.page)
                               : desk_.keep(page.number(), request.page.value_or(0));
+    if (!done) note_refusal(page, done.error());
     if (!done) page.send(answer_line(id, done.error()), false);
     if (done && !asks) page.send(answer_line(id, true, "done"), false);
     send_roles();
+}
+
+/// That another page has control is no offence.
+void ServerCore::note_refusal(const PageSession& page, const Error& error) {
+    if (error.code == "not-permitted")
+        notice("viewer: " + page.title() + " is refused: " + error.message + " [" + error.code + "]");
 }
 
 /// Tells pages what the desk has decided.
@@ -262,9 +278,9 @@ void ServerCore::send_roles() {
 
 std::string ServerCore::roles_line(const PageSession& page) const {
     const auto shown = [](const OpenPage& p) {
-        return Json{{"page", p.number}, {"address", p.address}, {"role", name_of(p.role)}};
+        return Json{{"page", p.number}, {"address", p.address}, {"user", p.user}, {"role", name_of(p.role)}};
     };
-    Json line{{"type", "roles"}, {"page", page.number()}, {"role", name_of(page.role())}};
+    Json line{{"type", "roles"}, {"page", page.number()}, {"role", name_of(page.user().role)}};
     line["holder"] = desk_.holder() == nullptr ? Json() : shown(*desk_.holder());
     line["asking"] = Json::array();
     for (const OpenPage& p : desk_.asking()) line["asking"].push_back(shown(p));
@@ -448,10 +464,25 @@ void ServerCore::measure() {
     clock_.expires_after(std::chrono::milliseconds(100));
     clock_.async_wait([this](boost::system::error_code error) {
         if (error) return;
+        check_users();
         desk_.advance(steady_ms());
         send_roles();
         measure();
     });
+}
+
+/// Users come and go while the run lasts. As long as they cannot be read, they stay as they were.
+void ServerCore::check_users() {
+    if (!options_.users || steady_ms() - users_ms_ < kUsersEvery_ms) return;
+    users_ms_ = steady_ms();
+    Result<std::vector<PageUser>> users = options_.users();
+    const std::string problem = users ? "" : users.error().text();
+    if (std::exchange(users_problem_, problem) != problem && !users)
+        notice("viewer: the users of the page stay as they were: " + problem);
+    if (!users || !access_.set_users(std::move(users).value())) return;
+    for (const auto& [number, page] : std::map(pages_))
+        if (const std::string why = access_.withdrawal(page->user()); !why.empty())
+            page->expel(why, "revoked");
 }
 
 GatewayLoad ServerCore::load() const {

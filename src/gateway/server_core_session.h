@@ -5,6 +5,7 @@
 #include <atomic>
 #include <boost/asio/io_context.hpp>
 #include <boost/asio/ip/tcp.hpp>
+#include <boost/asio/ssl/context.hpp>
 #include <boost/asio/steady_timer.hpp>
 #include <deque>
 #include <map>
@@ -35,7 +36,9 @@ struct Farewell {
 
 class ServerCore {
   public:
-    ServerCore(const GatewayOptions& options, Access access, std::shared_ptr<Exchange> exchange);
+    /// `tls`: of the certificate of the options; nullptr: pages are plain.
+    ServerCore(const GatewayOptions& options, Access access, std::shared_ptr<boost::asio::ssl::context> tls,
+               std::shared_ptr<Exchange> exchange);
     ~ServerCore();
 
     /// Binds and listens; an Error if the port is taken.
@@ -48,6 +51,7 @@ class ServerCore {
 
     // --- for sessions
     const Access& access() const { return access_; }
+    boost::asio::ssl::context* tls() const { return tls_.get(); }
     const PageFiles& files() const { return files_; }
     bool framed() const { return options_.framed; }
     const std::shared_ptr<const ShownScene>& scene() const { return scene_; }
@@ -93,9 +97,14 @@ class ServerCore {
     bool make_room(const std::string& address);
     std::size_t pages_of(const std::string& address) const;
     void measure();
+    void check_users();
+    void note_refusal(const PageSession& page, const Error& error);
 
     GatewayOptions options_;
     Access access_;
+    std::shared_ptr<boost::asio::ssl::context> tls_;
+    std::int64_t users_ms_ = 0;  // when they were read last
+    std::string users_problem_;  // why they could not be read then
     PageFiles files_;
     std::shared_ptr<Exchange> exchange_;
     std::set<HttpSession*> connections_;  // sessions take themselves out, the last ones when io_ ends

@@ -4,8 +4,10 @@
 #include <random>
 
 #include "core/float_env.h"
+#include "gateway/access.h"
 #include "gateway/gateway.h"
 #include "local_view/stand_in.h"
+#include "net/run_keys.h"
 #include "scene/scene_codec.h"
 #include "scene/scene_file.h"
 
@@ -36,7 +38,15 @@ struct LocalView::Parts {
 };
 
 Result<std::unique_ptr<LocalView>> LocalView::open(const LocalViewOptions& options) {
+    const Result<ListenAddress> at = parse_listen_address(options.listen);
+    if (!at) return at.error();
     GatewayOptions wanted;
+    if (!options.insecure && !is_loopback(std::string_view(at.value().address))) {
+        const Result<KeyPair> made = new_page_keys(at.value().address);
+        if (!made) return made.error();
+        wanted.certificate = PageCertificate{made.value().certificate, made.value().key};
+    }
+    wanted.insecure = options.insecure;
     wanted.listen = options.listen;
     wanted.page_folder = options.page_folder;
     wanted.role = options.role;
@@ -54,6 +64,10 @@ LocalView::~LocalView() = default;
 
 const std::string& LocalView::url() const {
     return parts_->gateway->url();
+}
+
+const std::string& LocalView::fingerprint() const {
+    return parts_->gateway->fingerprint();
 }
 
 void LocalView::turn(LocalRun& run, const Looks& looks) {

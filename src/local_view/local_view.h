@@ -20,6 +20,7 @@ struct LocalViewOptions {
     std::string page_folder;           ///< with the page's files
     PageRole role = PageRole::kSteer;  ///< the greatest that a page gets
     std::string program = "roboss";    ///< what pages show as the program
+    bool insecure = false;  ///< beyond loopback, too, without TLS; else with a certificate of its own
 };
 
 /// The Worlds that a Model was made of: the first one, and those of what was added (scene/placed_copies.h).
@@ -34,6 +35,8 @@ class LocalView {
 
     /// Where browsers find it, with the token if one is needed.
     const std::string& url() const;
+    /// SHA-256 of its certificate, as browsers show it; empty: it is not served over TLS.
+    const std::string& fingerprint() const;
     /// To be called often: after each part of a step, and some thirty times a second while nothing is
     /// stepped. Shows the run as it is now, and gives it the orders of pages. It is cheap between two views,
     /// and while nobody watches. The run may be another one each time, also of another Model.

@@ -1,7 +1,9 @@
 // OpenSSL's X509 functions.
 #include "net/certificates.h"
 
+#include <algorithm>
 #include <array>
+#include <cctype>
 #include <ctime>
 #include <optional>
 
@@ -89,6 +91,21 @@ Result<> check_name(const std::string& name) {
     const bool printable = name.find(char{0}) == std::string::npos;
     if (!name.empty() && name.size() <= kNameMost && printable) return Ok{};
     return Error{"'" + name + "' is no name for a certificate", "give 1 to 64 bytes", "bad-name"};
+}
+
+/// Names of a server as OpenSSL's configuration has them: "IP:192.0.2.7,DNS:lab".
+std::string subject_names(const std::vector<std::string>& names) {
+    const auto plain = [](unsigned char c) {
+        return std::isalnum(c) != 0 || c == '-' || c == '.' || c == '_';
+    };
+    std::string text;
+    for (const std::string& name : names) {
+        const Owned<ASN1_OCTET_STRING, ASN1_OCTET_STRING_free> address(a2i_IPADDRESS(name.c_str()));
+        if (!address && (name.empty() || !std::ranges::all_of(name, plain))) continue;
+        text += (text.empty() ? "" : ",") + std::string(address ? "IP:" : "DNS:") + name;
+    }
+    ERR_clear_error();
+    return text;
 }
 
 std::string word(const X509_NAME* name, int field) {
@@ -181,6 +198,20 @@ Result<KeyPair> new_certificate(const KeyPair& authority, const Holder& holder, 
         !extend(c, NID_ext_key_usage, "serverAuth,clientAuth"))
         return failed("no certificate can be made");
     return signed_by(std::move(*d), key.get());
+}
+
+Result<KeyPair> new_server_certificate(const std::vector<std::string>& names, int days) {
+    std::optional<Draft> d = draft("roboss page", "server", days);
+    if (!d) return failed("no key can be made");
+    X509* c = d->certificate.get();
+    if (X509_set_issuer_name(c, X509_get_subject_name(c)) != 1 ||
+        !extend(c, NID_basic_constraints, "critical,CA:FALSE") || !extend(c, NID_ext_key_usage, "serverAuth"))
+        return failed("no certificate can be made");
+    if (const std::string called = subject_names(names);
+        !called.empty() && !extend(c, NID_subject_alt_name, called.c_str()))
+        return failed("no certificate can be made for " + called);
+    EVP_PKEY* own = d->key.get();
+    return signed_by(std::move(*d), own);
 }
 
 Result<Holder> holder_of(const std::string& certificate) {

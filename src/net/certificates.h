@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "core/result.h"
 #include "wire/rights.h"
@@ -45,6 +46,10 @@ Result<KeyPair> new_authority(const std::string& name, int days);
 /// no certificate and key, the name is empty or longer than 64 bytes, or the rights of another seat than
 /// kClient are limited.
 Result<KeyPair> new_certificate(const KeyPair& authority, const Holder& holder, int days);
+
+/// A certificate that signs itself, for a server that browsers call by these names: names of computers and IP
+/// addresses; what is neither is left out.
+Result<KeyPair> new_server_certificate(const std::vector<std::string>& names, int days);
 
 /// Whom a certificate (PEM) names. An Error: the text is none of ours.
 Result<Holder> holder_of(const std::string& certificate);

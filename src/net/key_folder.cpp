@@ -38,6 +38,11 @@ Result<std::string> read_text(const fs::path& file) {
                  "give the folder of a member's keys, as `roboss keys` makes it", "no-keys"};
 }
 
+Result<std::string> read_private(const fs::path& file) {
+    if (Result<> checked = check_private(file); !checked) return checked.error();
+    return read_text(file);
+}
+
 Result<> write_private(const fs::path& file, const std::string& text) {
     const fs::path unfinished = file.string() + ".new";
     ::unlink(unfinished.c_str());
@@ -52,11 +57,11 @@ Result<> write_private(const fs::path& file, const std::string& text) {
 Result<Credentials> read_keys(const fs::path& folder) {
     Credentials credentials;
     for (const auto& [name, text] : key_files(credentials)) {
-        Result<std::string> read = read_text(folder / name);
+        Result<std::string> read =
+            text == &credentials.own.key ? read_private(folder / name) : read_text(folder / name);
         if (!read) return read.error();
         *text = std::move(read).value();
     }
-    if (Result<> checked = check_private(folder / "member.key"); !checked) return checked.error();
     std::ifstream revoked(folder / "revoked");
     for (std::string line; std::getline(revoked, line);)
         if (std::string serial; std::istringstream(line) >> serial) credentials.revoked.insert(serial);

@@ -29,5 +29,7 @@ Result<> write_keys(const std::filesystem::path& folder, const Credentials& cred
 /// A file that only its owner may read, whole or not at all.
 Result<> write_private(const std::filesystem::path& file, const std::string& text);
 Result<std::string> read_text(const std::filesystem::path& file);
+/// An Error [open-key]: others may read it.
+Result<std::string> read_private(const std::filesystem::path& file);
 
 }  // namespace roboss

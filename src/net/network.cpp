@@ -7,8 +7,10 @@
 #include <netdb.h>
 #include <sys/resource.h>
 #include <sys/socket.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <climits>
 #include <memory>
 #include <vector>
 
@@ -16,28 +18,59 @@ namespace roboss {
 namespace {
 
 std::string text_of(const sockaddr* address) {
-    char text[INET_ADDRSTRLEN] = "";
-    inet_ntop(AF_INET, &reinterpret_cast<const sockaddr_in*>(address)->sin_addr, text, sizeof(text));
+    char text[INET6_ADDRSTRLEN] = "";
+    const bool v6 = address->sa_family == AF_INET6;
+    const void* bytes =
+        v6 ? static_cast<const void*>(&reinterpret_cast<const sockaddr_in6*>(address)->sin6_addr)
+           : &reinterpret_cast<const sockaddr_in*>(address)->sin_addr;
+    inet_ntop(address->sa_family, bytes, text, sizeof(text));
     return text;
+}
+
+bool needs_zone(const sockaddr* address) {
+    return address->sa_family == AF_INET6 &&
+           IN6_IS_ADDR_LINKLOCAL(&reinterpret_cast<const sockaddr_in6*>(address)->sin6_addr);
+}
+
+/// Of the interfaces that are up; empty if they cannot be listed.
+struct InterfaceAddress {
+    std::string name, address;
+    bool v6 = false;
+};
+std::vector<InterfaceAddress> interface_addresses() {
+    ifaddrs* list = nullptr;
+    if (getifaddrs(&list) != 0) return {};
+    const std::unique_ptr<ifaddrs, decltype(&freeifaddrs)> owner(list, &freeifaddrs);
+    std::vector<InterfaceAddress> all;
+    for (const ifaddrs* i = list; i != nullptr; i = i->ifa_next) {
+        if (i->ifa_addr == nullptr || (i->ifa_flags & IFF_UP) == 0) continue;
+        const bool v6 = i->ifa_addr->sa_family == AF_INET6;
+        if ((v6 || i->ifa_addr->sa_family == AF_INET) && !needs_zone(i->ifa_addr))
+            all.push_back({i->ifa_name, text_of(i->ifa_addr), v6});
+    }
+    return all;
 }
 
 }  // namespace
 
 Result<std::string> interface_address(const std::string& name) {
     if (name == "0.0.0.0") return name;
-    ifaddrs* list = nullptr;
-    if (getifaddrs(&list) != 0) return Error{"the network interfaces of this computer cannot be listed", ""};
-    const std::unique_ptr<ifaddrs, decltype(&freeifaddrs)> owner(list, &freeifaddrs);
     std::string known;
-    for (const ifaddrs* i = list; i != nullptr; i = i->ifa_next) {
-        if (i->ifa_addr == nullptr || i->ifa_addr->sa_family != AF_INET || (i->ifa_flags & IFF_UP) == 0)
-            continue;
-        const std::string address = text_of(i->ifa_addr);
-        if (name == i->ifa_name || name == address) return address;
-        known += (known.empty() ? "" : ", ") + std::string(i->ifa_name) + " (" + address + ")";
+    for (const InterfaceAddress& i : interface_addresses()) {
+        if (i.v6) continue;
+        if (name == i.name || name == i.address) return i.address;
+        known += (known.empty() ? "" : ", ") + i.name + " (" + i.address + ")";
     }
     return Error{"this computer has no network interface '" + name + "' with an IPv4 address",
                  "give one of: " + known, "no-interface"};
+}
+
+std::vector<std::string> own_names() {
+    std::vector<std::string> names{"localhost"};
+    char host[HOST_NAME_MAX + 1] = "";
+    if (gethostname(host, sizeof(host) - 1) == 0 && host[0] != '\0') names.emplace_back(host);
+    for (const InterfaceAddress& i : interface_addresses()) names.push_back(i.address);
+    return names;
 }
 
 Result<HostPort> host_port(const std::string& text) {

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "core/result.h"
 
@@ -11,6 +12,10 @@ namespace roboss {
 /// The IPv4 address of an interface of this computer, named "eth0" or "192.0.2.7"; "0.0.0.0" is that of all.
 /// An Error lists what there is.
 Result<std::string> interface_address(const std::string& name);
+
+/// What this computer may be called: "localhost", its name, and the addresses of its interfaces (those of
+/// IPv6 that need no zone).
+std::vector<std::string> own_names();
 
 struct HostPort {
     std::string address;  // IPv4

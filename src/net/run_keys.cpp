@@ -2,11 +2,15 @@
 #include "net/run_keys.h"
 
 #include <utility>
+#include <vector>
+
+#include "net/network.h"
 
 namespace roboss {
 namespace {
 
 constexpr int kRunKeys_days = 3'650;  // keys of a run end with it
+constexpr int kPageKeys_days = 365;   // browsers refuse what lasts for long
 
 }  // namespace
 
@@ -22,6 +26,12 @@ Result<RunKeys> new_run_keys(const std::string& simulation) {
         *credentials = {authority.value().certificate, std::move(own).value(), {}};
     }
     return keys;
+}
+
+Result<KeyPair> new_page_keys(const std::string& address) {
+    std::vector<std::string> names = own_names();
+    names.push_back(address);
+    return new_server_certificate(names, kPageKeys_days);
 }
 
 }  // namespace roboss

@@ -16,4 +16,8 @@ struct RunKeys {
 /// Keys of a new authority, whose own key is not kept.
 Result<RunKeys> new_run_keys(const std::string& simulation);
 
+/// For the viewer's page of a run that listens at this address: its certificate is good for a year, for all
+/// names and addresses of this computer.
+Result<KeyPair> new_page_keys(const std::string& address);
+
 }  // namespace roboss

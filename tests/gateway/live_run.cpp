@@ -30,6 +30,9 @@ LiveRun::LiveRun(std::shared_ptr<const Model> model, const LiveRunOptions& optio
         gateway.listen = options.listen;
         gateway.page_folder = options.page_folder;
         gateway.role = options.role;
+        gateway.insecure = options.insecure;
+        gateway.certificate = options.certificate;
+        gateway.users = options.users;
         gateway.new_address = new_address;
         auto opened = Gateway::open(gateway);
         ROBOSS_CHECK(opened.ok(), "the gateway listens");

@@ -6,6 +6,7 @@
 #include <functional>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <thread>
 #include <vector>
@@ -25,8 +26,11 @@ struct LiveRunOptions {
     double speed = 1;  // simulated seconds per second; 0: as fast as it can
     bool paused = false;
     PageRole role = PageRole::kAdminister;  // the greatest that a page gets
-    std::vector<Order> orders;              // as of a file
-    std::vector<TextureFile> textures;      // that the scene has
+    bool insecure = false;                  // plain also beyond loopback
+    std::optional<PageCertificate> certificate{};
+    std::function<Result<std::vector<PageUser>>()> users{};
+    std::vector<Order> orders;          // as of a file
+    std::vector<TextureFile> textures;  // that the scene has
     /// For cameras; empty: there are none.
     std::function<std::vector<std::uint8_t>(const Model&)> visuals{};
 };

@@ -65,6 +65,7 @@ TEST_F(Viewed, AWebSocketNamesItsOriginAndTheSubprotocol) {
 TEST_F(Viewed, BeyondLoopbackATokenIsNeeded) {
     LiveRunOptions options;
     options.listen = "0.0.0.0:0";
+    options.insecure = true;
     const auto run = begin(options);
     ViewerUrl url(run->url());
     ASSERT_EQ(url.token.size(), 32u);
@@ -174,6 +175,7 @@ TEST_F(Viewed, APageDoesNoMoreThanItsRoleAllows) {
 TEST_F(Viewed, TheTokenDecidesTheRole) {
     LiveRunOptions options;
     options.listen = "0.0.0.0:0";
+    options.insecure = true;
     const auto run = begin(options);
     ASSERT_EQ(run->gateway().other_urls().size(), 2u);
     const std::string to_watch = run->gateway().other_urls()[1];

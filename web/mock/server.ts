@@ -93,7 +93,7 @@ class Page {
             program: "mock gateway",
         });
         if (run.journal) this.tell(run.timeline());
-        const self = { page: this.number, address: "127.0.0.1", role: "administer" };
+        const self = { page: this.number, address: "127.0.0.1", user: "", role: "administer" };
         this.tell({ type: "roles", page: this.number, role: "administer", holder: self, asking: [] });
         this.status();
         socket.on(

@@ -3,8 +3,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -12,10 +15,13 @@
 #include "app/commands/numbers.h"
 #include "app/output/say.h"
 #include "app/run/run.h"
+#include "app/viewer/page_users.h"
 #include "net/key_ring.h"
 
 namespace roboss {
 namespace {
+
+namespace fs = std::filesystem;
 
 const char* const kKeysFooter =
     R"(Runs on one computer need no such keys: their members find keys of the run by its name. For members on other
@@ -34,6 +40,12 @@ unless its rights are limited. They are signed with it, so only a new key change
 
   roboss keys add keys pilot --role client --robots 'car_*,spider' --orders actuators,velocity
   roboss keys add keys observer --role client --look-only
+
+Users of the viewer's page get a token instead, which is printed once; the file keeps only its digest:
+
+  roboss keys add keys ann --role steer             watch, steer or administer (docs/viewer.md)
+  roboss run city.sdf --view 0.0.0.0:8090 --view-users keys/users
+  roboss keys revoke keys ann                       also while the run lasts
 
 `roboss cluster up` makes and copies keys by itself. A Controller accepts the keys of its own authority only, and each
 only for its role. It reads the list of revoked keys, keys/controller/revoked, again when that changes.
@@ -64,14 +76,45 @@ Result<Rights> rights_of(const KeysOptions& o) {
                        o.steer || !limited);
 }
 
+fs::path users_of(const KeysOptions& o) {
+    return fs::path(o.folder) / kUsersFile;
+}
+
+/// Those of the folder; none if it has no file of them.
+Result<std::vector<PageUser>> page_users(const KeysOptions& o) {
+    std::error_code error;
+    if (!fs::exists(users_of(o), error)) return std::vector<PageUser>{};
+    return read_page_users(users_of(o));
+}
+
+int add_user(const KeysOptions& o, const KeyRing& ring, PageRole role) {
+    if (ring.has(o.name))
+        return fail({"'" + o.name + "' has a key already", "use it, or revoke it first", "key-exists"});
+    const Result<std::string> token = add_page_user(users_of(o), o.name, role);
+    if (!token) return fail(token.error());
+    say("{}\n", token.value());
+    say(stderr, "roboss: the token of {}, for the page's address: ?token=...; {} is for --view-users\n",
+        o.name, users_of(o).string());
+    return kSuccess;
+}
+
 int add(const KeysOptions& o) {
+    const std::optional<PageRole> page_role = parse_page_role(o.role);
     const Result<Seat> seat = seat_of(o.role);
-    if (!seat) return fail(seat.error());
+    if (!seat && !page_role)
+        return fail({seat.error().message,
+                     seat.error().remedy + "; for a user of the page watch, steer or administer",
+                     seat.error().code});
     if (Result<> named = check_holder_name(o.name); !named) return fail(named.error());
     const Result<Rights> rights = rights_of(o);
     if (!rights) return fail(rights.error());
+    if (page_role && !rights.value().everything())
+        return fail({"the rights of a user of the page are those of its role",
+                     "choose watch, steer or administer, and leave --robots, --orders and the like out",
+                     "bad-rights"});
     Result<KeyRing> ring = KeyRing::open(o.folder);
     if (!ring) return fail(ring.error());
+    if (page_role) return add_user(o, ring.value(), *page_role);
     if (Result<> added = ring.value().add(o.name, seat.value(), o.days, rights.value()); !added)
         return fail(added.error());
     say("{}/{}: the key of a {}, for its --keys\n", o.folder, o.name, o.role);
@@ -97,6 +140,8 @@ int list(const KeysOptions& o) {
     if (!ring) return fail(ring.error());
     const Result<std::vector<Holder>> holders = ring.value().holders();
     if (!holders) return fail(holders.error());
+    const Result<std::vector<PageUser>> users = page_users(o);
+    if (!users) return fail(users.error());
     if (o.json) {
         nlohmann::ordered_json all = nlohmann::ordered_json::array();
         for (const Holder& holder : holders.value())
@@ -105,6 +150,8 @@ int list(const KeysOptions& o) {
                            {"expires", holder.expires},
                            {"serial", holder.serial},
                            {"rights", rights_column(holder)}});
+        for (const PageUser& user : users.value())
+            all.push_back({{"name", user.name}, {"role", name_of(user.role)}});
         say("{}\n", all.dump(2));
         return kSuccess;
     }
@@ -112,12 +159,21 @@ int list(const KeysOptions& o) {
     for (const Holder& holder : holders.value())
         say("{:24}  {:10}  {:20}  {}\n", holder.name, seat_name(holder.seat), holder.expires,
             rights_column(holder));
+    for (const PageUser& user : users.value())
+        say("{:24}  {:10}  {:20}\n", user.name, name_of(user.role), "never");
     return kSuccess;
 }
 
 int revoke(const KeysOptions& o) {
     Result<KeyRing> ring = ring_of(o);
     if (!ring) return fail(ring.error());
+    const Result<std::vector<PageUser>> users = page_users(o);
+    if (!users) return fail(users.error());
+    if (std::ranges::find(users.value(), o.name, &PageUser::name) != users.value().end()) {
+        if (Result<> removed = remove_page_user(users_of(o), o.name); !removed) return fail(removed.error());
+        say("the token of {} is revoked; runs notice it within a second or two\n", o.name);
+        return kSuccess;
+    }
     if (Result<> revoked = ring.value().revoke(o.name); !revoked) return fail(revoked.error());
     say("the key of {} is revoked; Controllers with their keys elsewhere need the new file `revoked`\n",
         o.name);
@@ -151,8 +207,9 @@ void add_rights_options(CLI::App& sub, KeysOptions& o) {
 }  // namespace
 
 void add_keys_command(CLI::App& app, int& exit_code) {
-    CLI::App* command =
-        app.add_subcommand("keys", "make, list and revoke the keys of members on other computers");
+    CLI::App* command = app.add_subcommand(
+        "keys",
+        "make, list and revoke the keys of members on other computers, and the tokens of users of the page");
     command->footer(kKeysFooter);
     command->require_subcommand(1);
     auto o = std::make_shared<KeysOptions>();
@@ -162,9 +219,12 @@ void add_keys_command(CLI::App& app, int& exit_code) {
     CLI::App* sub = command->add_subcommand("add", "make a key, and the authority if the folder is new");
     folder(sub);
     sub->add_option("name", o->name, "of its holder")->required();
-    sub->add_option("--role", o->role, "controller, simulator, client, or member (Simulator or Client)")
+    sub->add_option(
+           "--role", o->role,
+           "controller, simulator, client, or member (Simulator or Client); for a user of the viewer's "
+           "page: watch, steer or administer")
         ->capture_default_str();
-    sub->add_option("--days", o->days, "until it expires")
+    sub->add_option("--days", o->days, "until it expires (tokens of users do not)")
         ->check(whole_number(1, 36'500))
         ->capture_default_str();
     add_rights_options(*sub, *o);

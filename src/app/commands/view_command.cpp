@@ -16,7 +16,7 @@ result; orders given in the viewer do.
 
 Examples:
   roboss view                                      a run on this computer (`roboss controller ...`)
-  roboss view --interface eth0 --view 0.0.0.0:8090  for browsers on other computers, with a token
+  roboss view --view 0.0.0.0:8090                  for browsers on other computers, over TLS, with a token
 
 Exit codes: 0 ended by Ctrl-C, 1 an option is wrong, or no Controller was found in time (--patience).)";
 
@@ -27,7 +27,7 @@ struct ViewCommandOptions {
 
 int view(const ViewCommandOptions& o) {
     Member member("view", o.member);
-    Result<std::unique_ptr<Gateway>> gateway = open_viewer(o.viewer, true);
+    Result<std::unique_ptr<Gateway>> gateway = open_viewer(o.viewer, true, o.member.network.insecure);
     if (!gateway) return member.report_error(gateway.error()), kBadInput;
     if (!member.open()) return kBadInput;
     print_urls(*gateway.value());

@@ -249,7 +249,8 @@ bool Run::create() {
 
 bool Run::open_gateway() {
     if (o_.viewer.headless) return true;
-    Result<std::unique_ptr<Gateway>> gateway = open_viewer(o_.viewer, !o_.journal.empty());
+    Result<std::unique_ptr<Gateway>> gateway =
+        open_viewer(o_.viewer, !o_.journal.empty(), o_.network.insecure);
     if (!gateway) return print(gateway.error()), false;
     gateway_ = std::move(gateway).value();
     if (!o_.quiet) print_urls(*gateway_);

@@ -277,6 +277,10 @@ void add_name_option(CLI::App& command, RunOptions& o) {
     command.add_option_function<std::string>(
         "--simulation", [&o](const std::string& name) { o.network.simulation = name; },
         "name of the run for `roboss control` and `roboss runs` (default: the name of the file)");
+    command
+        .add_flag("--insecure", o.network.insecure,
+                  "no encryption: neither of the viewer at an address beyond loopback, nor between processes")
+        ->envname("ROBOSS_INSECURE");
 }
 
 }  // namespace

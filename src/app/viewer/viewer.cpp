@@ -9,8 +9,11 @@
 #include <random>
 
 #include "app/output/say.h"
+#include "app/viewer/page_users.h"
+#include "gateway/access.h"
 #include "net/key_folder.h"
 #include "net/meeting_place.h"
+#include "net/run_keys.h"
 
 namespace roboss {
 namespace {
@@ -34,6 +37,42 @@ Result<fs::path> keep_secret(const std::vector<std::string>& lines) {
     return file;
 }
 
+void add_access_options(CLI::App& command, ViewerOptions& o, const std::string& group) {
+    CLI::Option* certificate =
+        command.add_option("--view-cert", o.certificate,
+                           "serve the viewer over TLS with this certificate (PEM; behind it those between it "
+                           "and its authority). "
+                           "Default: beyond loopback, one made for this run, whose fingerprint is printed");
+    CLI::Option* key =
+        command.add_option("--view-key", o.key, "key of that certificate (PEM), which only you may read");
+    certificate->check(CLI::ExistingFile)->needs(key)->group(group);
+    key->check(CLI::ExistingFile)->needs(certificate)->group(group);
+    command
+        .add_option("--view-users", o.users,
+                    "file of users, each with a token and a role (`roboss keys add KEYS NAME --role steer` "
+                    "writes KEYS/users); then nobody else may open the viewer, also on loopback")
+        ->check(CLI::ExistingFile)
+        ->group(group);
+}
+
+/// Given by files, or made for this run if others than this computer reach the page; none: it is plain.
+Result<std::optional<PageCertificate>> certificate_for(const ViewerOptions& o, bool insecure) {
+    if (!o.certificate.empty()) {
+        const Result<std::string> certificate = read_text(o.certificate), key = read_private(o.key);
+        for (const auto* text : {&certificate, &key})
+            if (!*text)
+                return Error{text->error().message, "see --view-cert and --view-key", text->error().code};
+        return std::optional(PageCertificate{certificate.value(), key.value()});
+    }
+    const Result<ListenAddress> at = parse_listen_address(o.listen);
+    if (!at) return at.error();
+    if (insecure || is_loopback(std::string_view(at.value().address)))
+        return std::optional<PageCertificate>();
+    const Result<KeyPair> made = new_page_keys(at.value().address);
+    if (!made) return made.error();
+    return std::optional(PageCertificate{made.value().certificate, made.value().key});
+}
+
 }  // namespace
 
 void add_viewer_options(CLI::App& command, ViewerOptions& o, ViewerDefault by_default) {
@@ -43,8 +82,8 @@ void add_viewer_options(CLI::App& command, ViewerOptions& o, ViewerDefault by_de
         command.add_option("--view", o.listen,
                            std::string(on_demand ? "serve the viewer at " : "") +
                                "[ADDRESS:]PORT of the viewer for browsers; if the port is in use, the next "
-                               "free one. The default "
-                               "address is loopback only; with any other, the printed URL carries a token");
+                               "free one. The default address is loopback only; with any other, the page is "
+                               "served over TLS and the printed URL carries a token");
     view->group(group);
     o.headless = on_demand;
     if (on_demand)
@@ -63,6 +102,7 @@ void add_viewer_options(CLI::App& command, ViewerOptions& o, ViewerDefault by_de
         ->check(CLI::IsMember({"watch", "steer", "administer"}))
         ->capture_default_str()
         ->group(group);
+    add_access_options(command, o, group);
     if (by_default == ViewerDefault::kOn)
         command.add_flag("--headless", o.headless, "do not serve the viewer")->group(group);
     else if (on_demand)  // so that scripts may use the flag with every subcommand
@@ -74,6 +114,9 @@ void add_viewer_options(CLI::App& command, ViewerOptions& o, ViewerDefault by_de
 }
 
 void print_urls(const Gateway& gateway) {
+    const std::string& fingerprint = gateway.fingerprint();
+    if (!fingerprint.empty())
+        say(stderr, "roboss: the certificate of the viewer has the SHA-256 fingerprint\n  {}\n", fingerprint);
     std::vector<std::string> lines{"viewer at " + gateway.url()};
     for (const std::string& url : gateway.other_urls()) lines.push_back("viewer " + url);
     const std::string::size_type token = lines.front().find("?token=");
@@ -87,13 +130,18 @@ void print_urls(const Gateway& gateway) {
              : "its tokens cannot be kept: " + file.error().text());
 }
 
-Result<std::unique_ptr<Gateway>> open_viewer(const ViewerOptions& o, bool journal) {
+Result<std::unique_ptr<Gateway>> open_viewer(const ViewerOptions& o, bool journal, bool insecure) {
+    Result<std::optional<PageCertificate>> certificate = certificate_for(o, insecure);
+    if (!certificate) return certificate.error();
     GatewayOptions options;
     options.listen = o.listen;
     options.page_folder = o.page_folder;
     options.program = "roboss " ROBOSS_VERSION;
     options.journal = journal;
     options.role = parse_page_role(o.role).value_or(PageRole::kWatch);
+    options.certificate = std::move(certificate).value();
+    options.insecure = insecure;
+    if (!o.users.empty()) options.users = [file = o.users] { return read_page_users(file); };
     options.new_address = [] {
         std::random_device device;
         return Address{Role::kClient, static_cast<std::uint64_t>(device()) << 32 | device()};

@@ -14,6 +14,8 @@ struct ViewerOptions {
     std::string page_folder;          // empty: where it was built or installed
     bool headless = false;            // none at all
     std::string role = "administer";  // the greatest that a page gets
+    std::string certificate, key;     // PEM files; empty: made for this run where one is needed
+    std::string users;  // file of those who may open the page; empty: who has a token of the run
 };
 enum class ViewerDefault {
     kAlways,    // there is a viewer
@@ -22,10 +24,10 @@ enum class ViewerDefault {
 };
 void add_viewer_options(CLI::App& command, ViewerOptions& options, ViewerDefault by_default);
 
-/// Listens; `journal`: the run keeps one.
-Result<std::unique_ptr<Gateway>> open_viewer(const ViewerOptions& options, bool journal);
+/// Listens; `journal`: the run keeps one; `insecure`: also without encryption.
+Result<std::unique_ptr<Gateway>> open_viewer(const ViewerOptions& options, bool journal, bool insecure);
 
-/// Prints where the viewer is found, for each role.
+/// Prints where the viewer is found, for each role, and the fingerprint of its certificate.
 void print_urls(const Gateway& gateway);
 
 }  // namespace roboss

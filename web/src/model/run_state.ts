@@ -96,7 +96,7 @@ function refusal(probe: Probe | null): RunWords | null {
         return {
             kind: "refused",
             text: `The run refuses this page: ${probe.text}.`,
-            remedy: "Open the address that the run printed at its start. Each start makes new tokens.",
+            remedy: "Open the address that the run printed at its start, or use the token that you were given.",
             retries: false,
             button: "Try now",
         };

@@ -6,7 +6,7 @@ import { h, setText } from "../ui/dom";
 import type { PageInfo } from "../wire/roles";
 
 function called(page: PageInfo): string {
-    return `page ${page.page} (${page.address})`;
+    return `page ${page.page} (${page.user === "" ? "" : `${page.user}, `}${page.address})`;
 }
 
 export function controlDesk(state: ViewerState, run: RunLink): { element: HTMLElement; question: HTMLElement } {

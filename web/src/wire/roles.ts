@@ -6,6 +6,8 @@ export interface PageInfo {
     page: number;
     /** Of its computer. */
     address: string;
+    /** Its name, where users have tokens of their own; else empty. */
+    user: string;
     role: Role;
 }
 
