@@ -7,6 +7,7 @@ import subprocess
 import unittest
 
 from members import DRIVER, FOLDER, ROBOSS, WORLDS, Cluster, embedded
+from viewer_test import Browser, url_of
 
 CITY = [WORLDS / "city.sdf", "--duration", 1.2, "--seed", 7]
 BAD_INPUT, RUN_REFUSES = 1, 3
@@ -26,6 +27,7 @@ class Rights(unittest.TestCase):
         for name, *options in (("boss", "--role", "controller"), ("sim", "--role", "simulator"),
                                ("pilot", "--role", "client", "--robots", "car_1,car_2*", "--orders", "actuators"),
                                ("pusher", "--role", "client", "--orders", "force,pose"),
+                               ("window", "--role", "client", "--robots", "car_3", "--orders", "velocity"),
                                ("observer", "--role", "client", "--look-only"), ("chief", "--role", "client")):
             roboss("keys", "add", cls.keys, name, *options)
 
@@ -44,6 +46,7 @@ class Rights(unittest.TestCase):
     def test_the_list_shows_them(self):
         rights = {key["name"]: key["rights"] for key in json.loads(roboss("keys", "list", self.keys, "--json"))}
         self.assertEqual(rights, {"boss": "", "sim": "", "chief": "everything", "observer": "look-only",
+                                  "window": "robots=car_3;orders=velocity;steer=no",
                                   "pilot": "robots=car_1,car_2*;orders=actuators;steer=no",
                                   "pusher": "robots=*;orders=pose,force;steer=no"})
         self.assertIn("look-only", roboss("keys", "list", self.keys))
@@ -105,6 +108,22 @@ class Rights(unittest.TestCase):
             self.ask(cluster, "chief", "resume")
             self.assertEqual(cluster.summary(controller)["state_hash"], embedded(*CITY, "--client", DRIVER)["state_hash"])
             self.assertEqual(driver.end(10), 0, driver.said())
+
+    def test_a_page_has_the_rights_of_the_key_of_its_viewer(self):
+        with Cluster() as cluster:
+            controller = cluster.controller(WORLDS / "city.sdf", "--keys", self.keys / "boss", "--simulators", 1, "--speed", 1, "--headless")
+            cluster.simulator("--keys", self.keys / "sim")
+            viewer = cluster.start("view", "--view", 0, "--patience", 30, "--keys", self.keys / "window")
+            with Browser(url_of(viewer)) as page:
+                page.hears(lambda _: page.states > 3)
+                order = {"type": "order", "action": "velocity", "linear": [0, 0, 1], "angular": [0, 0, 0]}
+                self.assertTrue(page.asks({**order, "id": 1, "robot": 3})[0])
+                for message in ({**order, "id": 2, "robot": 4}, {"type": "control", "id": 3, "words": ["pause"]}):
+                    done, text = page.asks(message)
+                    self.assertFalse(done)
+                    self.assertIn("the key 'window' does not permit", text)
+            controller.hears("orders of client 'viewer' are refused")
+            controller.hears("requests of 'window' are refused")
 
 
 if __name__ == "__main__":

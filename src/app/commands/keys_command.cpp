@@ -183,7 +183,7 @@ int revoke(const KeysOptions& o) {
 void add_rights_options(CLI::App& sub, KeysOptions& o) {
     constexpr const char* kGroup = "Rights of a Client (default: all)";
     const auto list = [&](const char* name, std::vector<std::string>& words, const char* what) {
-        return sub.add_option(name, words, what)->delimiter(',')->expected(1)->group(kGroup);
+        return sub.add_option(name, words, what)->delimiter(',')->allow_extra_args(false)->group(kGroup);
     };
     CLI::Option* robots =
         list("--robots", o.robots, "robots that it may order: names and patterns, 'car_*,spider'");
