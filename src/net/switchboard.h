@@ -76,6 +76,7 @@ class Switchboard {
     void take_farewell(Connection& peer, const Frame& frame);
     void refuse(Connection& peer, const std::string& code, const std::string& reason);
     void give_up(Connection& peer, Error error);
+    bool found_key_is_replaced() const;
     void closed(Connection& peer, const std::string& reason);
     void report_trouble(const std::string& what);
 

@@ -99,6 +99,7 @@ void Switchboard::call() {
         if (!read) return report_trouble(read.error().text());
         keys = std::move(read).value();
     }
+    t.found_key = keys && options_.keys.empty() ? keys->own.certificate : "";
     if (!insecure && !keys)
         return report_trouble("this process has no key for the Controller at " + at +
                               ": give it with --keys, see `roboss keys` [no-keys]");
@@ -143,7 +144,18 @@ void Switchboard::take_accept(Connection& peer) {
     mailboxes_.ring();
 }
 
+/// A Controller that starts again makes new keys, and leaves them before it takes calls.
+bool Switchboard::found_key_is_replaced() const {
+    if (thread_->found_key.empty()) return false;
+    const std::optional<MeetingPlace::Note> note = MeetingPlace::find(options_.simulation);
+    return !note || !note->keys || note->keys->own.certificate != thread_->found_key;
+}
+
 void Switchboard::give_up(Connection& peer, Error error) {
+    if (error.code == "bad-certificate" && found_key_is_replaced()) {
+        thread_->outdated = true;  // the next call finds the new ones
+        return peer.close("its key is that of an earlier Controller");
+    }
     {
         const std::lock_guard lock(mutex_);
         if (!refusal_) refusal_ = std::move(error);
@@ -209,7 +221,7 @@ void Switchboard::closed(Connection& peer, const std::string& reason) {
     {
         const std::lock_guard lock(mutex_);
         peers_.erase(self);
-        expected = refusal_ || farewell_;
+        expected = refusal_ || farewell_ || std::exchange(thread_->outdated, false);
     }
     const std::set<Address> gone = routes_.forget(self);
     if (!gone.empty()) mailboxes_.vanish(gone);

@@ -19,36 +19,36 @@ namespace ssl = asio::ssl;
 using tcp = asio::ip::tcp;
 using Error = boost::system::error_code;
 
-/// One connection, in both directions.
-struct Link : std::enable_shared_from_this<Link> {
-    Link(tcp::socket&& caller, ssl::context& context)
-        : near(std::move(caller)), far(near.get_executor(), context) {}
-
-    template <class From, class To>
-    void pump(From& from, To& to, std::array<char, 16'384>& bytes) {
-        from.async_read_some(asio::buffer(bytes), [this, self = shared_from_this(), &from, &to, &bytes](
-                                                      Error error, std::size_t count) {
-            if (error) return close();
-            asio::async_write(to, asio::buffer(bytes, count),
-                              [this, self, &from, &to, &bytes](Error failed, std::size_t) {
-                                  failed ? close() : pump(from, to, bytes);
-                              });
-        });
-    }
-    void close() {
-        Error ignored;
-        near.close(ignored);
-        far.next_layer().close(ignored);
-    }
-
-    tcp::socket near;
-    ssl::stream<tcp::socket> far;
-    std::array<char, 16'384> up{}, down{};
-};
-
 }  // namespace
 
 struct TlsTunnel::Parts {
+    /// One connection, in both directions.
+    struct Link : std::enable_shared_from_this<Link> {
+        Link(tcp::socket&& caller, ssl::context& context)
+            : near(std::move(caller)), far(near.get_executor(), context) {}
+
+        template <class From, class To>
+        void pump(From& from, To& to, std::array<char, 16'384>& bytes) {
+            from.async_read_some(asio::buffer(bytes), [this, self = shared_from_this(), &from, &to, &bytes](
+                                                          Error error, std::size_t count) {
+                if (error) return close();
+                asio::async_write(to, asio::buffer(bytes, count),
+                                  [this, self, &from, &to, &bytes](Error failed, std::size_t) {
+                                      failed ? close() : pump(from, to, bytes);
+                                  });
+            });
+        }
+        void close() {
+            Error ignored;
+            near.close(ignored);
+            far.next_layer().close(ignored);
+        }
+
+        tcp::socket near;
+        ssl::stream<tcp::socket> far;
+        std::array<char, 16'384> up{}, down{};
+    };
+
     tcp::endpoint gateway;
     asio::io_context io{1};
     ssl::context context{ssl::context::tls_client};

@@ -28,7 +28,7 @@ class Host(Member):
     """A member of the run on one of the hosts."""
 
     def __init__(self, hosts, host, *arguments):
-        self.host = host
+        self.host, self.what = host, f"{arguments[0]} on host {host}"
         where = ["--interface", hosts.address(host)] if arguments[0] == "controller" else ["--controller", hosts.address(0), "--patience", 60]
         inside = [*hosts.inside(host), ROBOSS, *map(str, [*arguments, "--simulation", "soak", *where])]
         self.log = open(FOLDER / f"soak-{time.monotonic_ns()}.log", "w+")
@@ -92,7 +92,11 @@ class Round:
             said = sum(member.log.seek(0, 2) for member in self.members), self.summary_ticks()
             if said != self.heard:
                 self.heard, self.heard_at = said, time.monotonic()
-            self.silent_s = max(self.silent_s, time.monotonic() - self.heard_at)
+            if not self.members[0].said().rstrip().endswith("[standstill]"):  # it said whom it waits for
+                self.silent_s = max(self.silent_s, time.monotonic() - self.heard_at)
+
+    def all_said(self):
+        return "\n".join(f"-- {member.what}, {member.process.poll()}\n{member.said()}" for member in self.members)
 
     def summary_ticks(self):
         return self.progress.stat().st_size if self.progress.exists() else 0
@@ -112,13 +116,13 @@ class Round:
                 self.client(hosts)
                 while self.members[0].process.poll() is None:
                     if time.monotonic() - start > most_s:
-                        raise AssertionError(f"not over after {most_s:.0f} s:\n{self.members[0].said()}")
+                        raise AssertionError(f"not over after {most_s:.0f} s:\n{self.all_said()}")
                     self.wait(self.chance.uniform(0.5, 1.5))
                     if self.hits < self.options.hits and self.members[0].process.poll() is None:
                         self.hit(hosts)
                 took = time.monotonic() - start
                 if code := self.members[0].process.returncode:
-                    raise AssertionError(f"the Controller ended with {code}:\n{self.members[0].said()}")
+                    raise AssertionError(f"the Controller ended with {code}:\n{self.all_said()}")
                 return took, json.loads(summary.read_text())["state_hash"], hosts.lost
             finally:
                 for member in self.members:
