@@ -119,9 +119,13 @@ class Page:
             size = int.from_bytes(self.need(way, 2 if size == 126 else 8), "big")
         return kind & 15, self.need(way, size)
 
-    def asks(self, way, number, *words):
+    def says(self, way, number, *words):
         text, mask = json.dumps({"type": "control", "id": number, "words": words}).encode(), os.urandom(4)
         way.sendall(bytes([0x81, 0x80 | len(text)]) + mask + bytes(byte ^ mask[i % 4] for i, byte in enumerate(text)))
+
+    def asks(self, way, number, *words):
+        """The text of the answer, or the code of its error."""
+        self.says(way, number, *words)
         while True:
             kind, data = self.message(way)
             if kind == 1 and (said := json.loads(data))["type"] == "answer" and said["id"] == number:
@@ -221,7 +225,9 @@ class Users(unittest.TestCase):
             self.assertEqual(status, 403)
             self.assertIn("the token of ben was revoked", text)
             with pages["cy"].socket() as way:
-                self.assertNotIn(pages["cy"].asks(way, 1, "quit"), ("not-permitted", "no-control"))
+                self.assertIn("10 ticks", pages["cy"].asks(way, 1, "window", "10"))
+                pages["cy"].says(way, 2, "quit")
+                pages["cy"].end(way)
             self.assertEqual(run.process.wait(PATIENCE_S), 0)
             run.said += run.process.stderr.read()
             for word in token.values():
