@@ -119,6 +119,7 @@ bool TlsSession::advance(std::vector<std::uint8_t>& plain) {
         if (done != 1) return fail_unless_waiting(done);
         established_ = true;
         judge();
+        ERR_clear_error();  // SSL_get_error() would take those of a wrong signature for its own
     }
     for (;;) {
         const std::size_t at = plain.size();

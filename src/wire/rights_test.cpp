@@ -103,8 +103,11 @@ TEST_F(ClientRights, AreNoneInABadText) {
                              "orders=pose;robots=*;steer=no", "robots=*;orders=fly;steer=no",
                              "robots=a,,b;orders=pose;steer=no", "robots=a\n;orders=pose;steer=no"})
         EXPECT_FALSE(rights_of(text).ok()) << text;
-    EXPECT_EQ(make_rights({"car;steer=yes"}, {}, false).error().code, "bad-rights");
-    EXPECT_EQ(make_rights({std::string(5'000, 'x')}, {}, false).error().code, "bad-rights");
+    for (const std::string& pattern : {std::string("car;steer=yes"), std::string(5'000, 'x')}) {
+        const Result<Rights> rights = make_rights({pattern}, {"force"}, false);
+        ASSERT_FALSE(rights.ok()) << pattern;
+        EXPECT_EQ(rights.error().code, "bad-rights");
+    }
 }
 
 }  // namespace
