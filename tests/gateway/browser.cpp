@@ -52,7 +52,7 @@ HttpAnswer http_get(const ViewerUrl& url, const std::string& target, const std::
     http::response_parser<http::string_body> parser;
     parser.body_limit(256u << 20);
     http::read(socket, buffer, parser, error);
-    if (error && error != http::error::end_of_stream) return {};
+    if (!parser.is_done()) return {};
     HttpAnswer answer{static_cast<int>(parser.get().result_int()), {}, parser.get().body()};
     for (const auto& field : parser.get())
         answer.headers[std::string(field.name_string())] = std::string(field.value());
