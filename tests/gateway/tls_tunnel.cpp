@@ -68,9 +68,11 @@ struct TlsTunnel::Parts {
                         link->pump(link->near, link->far, link->up);
                         return link->pump(link->far, link->near, link->down);
                     }
-                    link->close();
-                    const std::scoped_lock lock(mutex);
-                    failure = refused.message();
+                    {
+                        const std::scoped_lock lock(mutex);
+                        failure = refused.message();
+                    }
+                    link->close();  // what the caller sees of it comes last
                 });
             });
             accept();
