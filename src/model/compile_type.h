@@ -79,8 +79,8 @@ void check_joints_read(const RobotType& type, const std::string& robot, Diagnost
 /// Warns of joints whose effort limit is 0, as exporters write it: orders to them are refused.
 void report_powerless(const RobotType& type, const ModelSpec& spec, Diagnostics& diagnostics);
 
-/// Matrices of a robot have an entry for each degree of freedom and each one above it (DofPaths). False, and an
-/// error, if they would be too large.
+/// Matrices of a robot have an entry for each degree of freedom and each one above it (DofPaths). False, and
+/// an error, if they would be too large.
 bool report_long_chains(const RobotType& type, const ModelSpec& spec, Diagnostics& diagnostics);
 
 /// Radius of the sphere about the base origin that holds every shape in every pose.

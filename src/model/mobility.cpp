@@ -154,8 +154,9 @@ class Mobility {
         return true;
     }
 
-    /// row_ M^-1 row_^T, where row_ ends at `last`; leaves zeros in it. A chain counts as held kFarthest degrees
-    /// of freedom above `last`, where its inertia hardly lets it give way: else n links would cost O(n^3) here.
+    /// row_ M^-1 row_^T, where row_ ends at `last`; leaves zeros in it. A chain counts as held kFarthest
+    /// degrees of freedom above `last`, where its inertia hardly lets it give way: else n links would cost
+    /// O(n^3) here.
     double take_inverse_norm(std::size_t last) {
         constexpr std::size_t kFarthest = 256;
         const DofPaths& paths = type_.paths;

@@ -1,5 +1,5 @@
-// A Controller that was started again has other keys. A member that has read the earlier ones just before calls
-// again with the new ones, and does not end.
+// A Controller that was started again has other keys. A member that has read the earlier ones just before
+// calls again with the new ones, and does not end.
 #include <gtest/gtest.h>
 #include <poll.h>
 #include <sys/socket.h>

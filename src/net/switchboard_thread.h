@@ -39,7 +39,7 @@ struct Switchboard::Thread {
     std::shared_ptr<const TlsContext> calling_with;
     std::int64_t called_ms = 0, retry_ms = kRetry_ms, next_call_ms = 0;
     bool calling = false, was_connected = false;
-    std::string found_key;   // the certificate that the last call found by the name of the run; empty: --keys
+    std::string found_key;  // the certificate that the last call found by the name of the run; empty: --keys
     bool outdated = false;  // another Controller has replaced the one whose key that was
 
     std::thread thread;

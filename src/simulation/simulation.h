@@ -79,8 +79,8 @@ class Simulation {
     std::span<const ContactReport> contacts() { return probe().contacts(); }
     /// What the joints of the robot bear in the same tick.
     std::vector<JointReaction> joint_reactions(RobotId robot) { return probe().joint_reactions(robot); }
-    /// Waits until states() returns at once. False: `go_on`, which is called now and then, said no. Simulators
-    /// in other processes may be lost, and then others have to step again what they held.
+    /// Waits until states() returns at once. False: `go_on`, which is called now and then, said no.
+    /// Simulators in other processes may be lost, and then others have to step again what they held.
     bool await_states(const std::function<bool()>& go_on);
     /// The run has failed (run_until() says why).
     bool failed() const { return controller_.failure().has_value(); }

@@ -35,7 +35,8 @@ Error no_journal() {
 template <class A>
 constexpr bool needs_states(const A&) {
     return std::is_same_v<A, SaveRun> || std::is_same_v<A, ChangeAccuracy> || std::is_same_v<A, AddModels> ||
-           std::is_same_v<A, RemoveRobots> || std::is_same_v<A, CopyRobots> || std::is_same_v<A, RestoreRobots>;
+           std::is_same_v<A, RemoveRobots> || std::is_same_v<A, CopyRobots> ||
+           std::is_same_v<A, RestoreRobots>;
 }
 
 }  // namespace
@@ -109,9 +110,9 @@ ControlOutcome Run::execute(const ControlAction& action) {
             } else {
                 const Tick tick = simulation_->tick();
                 if (needs_states(a) && !await_states(true))
-                    return ControlRefused(
-                        Error{"the Simulators that have the states at this tick are gone",
-                              "repeat the request once a Simulator has joined", "no-states"});
+                    return ControlRefused(Error{"the Simulators that have the states at this tick are gone",
+                                                "repeat the request once a Simulator has joined",
+                                                "no-states"});
                 Done done = act(a);
                 if (!done) return ControlRefused(done.error());
                 return ControlDone{tick, std::move(done).value()};

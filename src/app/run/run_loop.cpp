@@ -143,7 +143,8 @@ bool Run::take_picture() {
 /// Writes and checks what is due at this tick.
 bool Run::look(const Schedule& due) {
     const Tick now = simulation_->tick();
-    const bool looks = due.trace.at(now) || due.contacts.at(now) || due.dataset.at(now) || due.picture.at(now);
+    const bool looks =
+        due.trace.at(now) || due.contacts.at(now) || due.dataset.at(now) || due.picture.at(now);
     if (looks && !await_states(false)) return !abandoned_ && (interrupted() || advance_to(now));
     if (due.trace.at(now) && !write_trace()) return false;
     if (due.contacts.at(now) && !write_contacts()) return false;
