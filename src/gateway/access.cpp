@@ -52,11 +52,13 @@ bool same_name(std::string_view a, std::string_view b) {
                       [](unsigned char x, unsigned char y) { return std::tolower(x) == std::tolower(y); });
 }
 
-/// Whether `origin` is the page that this server gives at `host`. Behind a proxy that speaks TLS it is https.
-bool same_origin(std::string_view origin, std::string_view host) {
-    for (const std::string_view scheme : {"http://", "https://"})
-        if (!host.empty() && origin.starts_with(scheme) && origin.substr(scheme.size()) == host) return true;
-    return false;
+/// True if `origin` is the page that this server gives at `host`. Behind a proxy that speaks TLS it is https;
+/// over TLS it is never http, for anybody on the way could have written such a page.
+bool same_origin(std::string_view origin, std::string_view host, bool encrypted) {
+    const auto is_page = [&](std::string_view scheme) {
+        return !host.empty() && origin.starts_with(scheme) && origin.substr(scheme.size()) == host;
+    };
+    return is_page("https://") || (!encrypted && is_page("http://"));
 }
 
 std::string quoted(std::string_view text) {
@@ -162,7 +164,7 @@ std::string Access::refusal(const Visitor& visitor) const {
     }
     if (!visitor.wants_socket) return {};
     if (visitor.origins == 0) return "the Origin header is missing [no-origin]";
-    if (visitor.origins > 1 || !same_origin(visitor.origin, visitor.host))
+    if (visitor.origins > 1 || !same_origin(visitor.origin, visitor.host, visitor.encrypted))
         return "wrong Origin " + quoted(visitor.origin) + " [wrong-origin]";
     return {};
 }

@@ -30,6 +30,7 @@ struct Visitor {
     std::string_view host, origin, target, cookie;
     bool wants_socket = false;
     std::size_t hosts = 1, origins = 1;  // how many of these headers the request has
+    bool encrypted = false;              // it came over TLS
 };
 
 class Access {
@@ -41,7 +42,7 @@ class Access {
 
     /// Why the visitor is refused; empty: it may come in.
     std::string refusal(const Visitor& visitor) const;
-    /// Who the visitor is, by its token; nothing: it may not come in.
+    /// The user that the visitor's token names; nothing: the visitor may not come in.
     std::optional<PageUser> user_of(const Visitor& visitor) const;
     /// The token that the visitor named in its address, if it is right: it may keep it.
     std::string_view named_token(const Visitor& visitor) const;

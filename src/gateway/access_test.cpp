@@ -114,6 +114,9 @@ TEST(Access, AWebSocketIsForThePageOfThisServerOnly) {
           "http://127.0.0.1:8090@evil.com", "http://evil.com@127.0.0.1:8090", "http://127.0.0.1:8090/", ""})
         EXPECT_NE(access.refusal({host, origin, "/ws", "", true}), "") << origin;
     EXPECT_NE(access.refusal({host, "", "/ws", "", true, 1, 0}), "") << "no Origin";
+    EXPECT_EQ(access.refusal({host, "http://127.0.0.1:8090", "/ws", "", true}), "");
+    EXPECT_NE(access.refusal({host, "http://127.0.0.1:8090", "/ws", "", true, 1, 1, true}), "") << "over TLS";
+    EXPECT_EQ(access.refusal({host, "https://127.0.0.1:8090", "/ws", "", true, 1, 1, true}), "");
     EXPECT_NE(access.refusal({host, "http://127.0.0.1:8090", "/ws", "", true, 1, 2}), "") << "two Origins";
     EXPECT_EQ(access.refusal({host, "http://evil.example", "/", "", false}), "")
         << "files: the browser itself keeps them from other sites";

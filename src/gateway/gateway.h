@@ -32,8 +32,8 @@ struct GatewayOptions {
     PageRole role = PageRole::kAdminister;  // the greatest that a page gets
     std::optional<PageCertificate> certificate{};  // the page is served over TLS, and not otherwise
     bool insecure = false;                         // without TLS also for other computers
-    /// Who may open the page; called in the gateway's thread, once a second. Empty: everybody on loopback,
-    /// elsewhere who has a token of this run.
+    /// Returns the users who may open the page; called in the gateway's thread, once a second. Empty:
+    /// everybody on loopback, elsewhere the holders of a token of this run.
     std::function<Result<std::vector<PageUser>>()> users{};
     /// A new address for the Bus, never used before.
     std::function<Address()> new_address;

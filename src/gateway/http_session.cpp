@@ -124,7 +124,8 @@ void HttpSession::serve() {
                           view_of(request_[http::field::cookie]),
                           socket && beast::websocket::is_upgrade(request_),
                           request_.count(http::field::host),
-                          request_.count(http::field::origin)};
+                          request_.count(http::field::origin),
+                          stream_.encrypted()};
     if (const std::string refusal = core_.access().refusal(visitor); !refusal.empty())
         return refuse(http::status::forbidden, refusal);
     if (request_.method() != http::verb::get && request_.method() != http::verb::head)

@@ -13,7 +13,7 @@ namespace {
 namespace ssl = boost::asio::ssl;
 
 constexpr auto kLastWord = std::chrono::seconds(2);
-/// Of TLS 1.2; those of 1.3 are all good. All have forward secrecy.
+/// Ciphers of TLS 1.2, all with forward secrecy. Those of 1.3 need no choice.
 constexpr const char* kCiphers = "ECDHE+AESGCM:ECDHE+CHACHA20";
 
 Error bad_certificate(const std::string& what, const std::string& why) {

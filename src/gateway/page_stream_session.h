@@ -26,7 +26,7 @@ class PageStream {
     explicit PageStream(boost::asio::ip::tcp::socket&& socket)
         : way_(std::in_place_type<Plain>, std::move(socket)) {}
 
-    /// What lies below TLS; its timeouts hold for both.
+    /// The TCP stream below TLS; its timeouts hold for both.
     Plain& tcp() {
         Tls* tls = std::get_if<Tls>(&way_);
         return tls != nullptr ? tls->next_layer() : std::get<Plain>(way_);

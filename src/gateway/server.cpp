@@ -11,8 +11,8 @@ namespace {
 
 constexpr int kPortsTried = 50;
 
-/// Who may come in, and the tokens of this run: one for each role, from the least on; none where none is
-/// needed.
+/// The users who may come in, and the tokens of this run: one for each role, from the least on; none where
+/// none is needed.
 struct Door {
     Access access;
     std::vector<std::string> tokens;

@@ -58,7 +58,7 @@ std::size_t root_of(std::vector<std::size_t>& group, std::size_t i) {
     return i;
 }
 
-/// Of all joints. validate() reports those that name no such link.
+/// Finds the ends of all joints. validate() reports joints that name no such link.
 std::vector<std::optional<JointEnds>> find_ends(const ModelSpec& spec) {
     std::unordered_map<std::string_view, std::size_t> links;
     for (std::size_t i = 0; i < spec.links.size(); ++i) links.emplace(spec.links[i].name, i);

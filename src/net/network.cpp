@@ -32,11 +32,13 @@ bool needs_zone(const sockaddr* address) {
            IN6_IS_ADDR_LINKLOCAL(&reinterpret_cast<const sockaddr_in6*>(address)->sin6_addr);
 }
 
-/// Of the interfaces that are up; empty if they cannot be listed.
+/// An address of an interface that is up.
 struct InterfaceAddress {
     std::string name, address;
     bool v6 = false;
 };
+
+/// Empty if the interfaces cannot be listed.
 std::vector<InterfaceAddress> interface_addresses() {
     ifaddrs* list = nullptr;
     if (getifaddrs(&list) != 0) return {};

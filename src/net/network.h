@@ -13,7 +13,7 @@ namespace roboss {
 /// An Error lists what there is.
 Result<std::string> interface_address(const std::string& name);
 
-/// What this computer may be called: "localhost", its name, and the addresses of its interfaces (those of
+/// Names of this computer: "localhost", its host name, and the addresses of its interfaces (those of
 /// IPv6 that need no zone).
 std::vector<std::string> own_names();
 

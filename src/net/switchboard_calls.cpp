@@ -217,11 +217,12 @@ void Switchboard::take_farewell(Connection& peer, const Frame& frame) {
 
 void Switchboard::closed(Connection& peer, const std::string& reason) {
     const Peer self = peer.shared_from_this();
+    const bool outdated = std::exchange(thread_->outdated, false);
     bool expected = false;  // it has been reported
     {
         const std::lock_guard lock(mutex_);
         peers_.erase(self);
-        expected = refusal_ || farewell_ || std::exchange(thread_->outdated, false);
+        expected = refusal_ || farewell_ || outdated;
     }
     const std::set<Address> gone = routes_.forget(self);
     if (!gone.empty()) mailboxes_.vanish(gone);

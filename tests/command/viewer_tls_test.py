@@ -209,6 +209,8 @@ class Users(unittest.TestCase):
             self.assertNotIn(word, users.read_text())
         self.assertIn("[key-exists]", roboss("keys", "add", keys, "ann", "--role", "steer").stderr)
         self.assertRegex(roboss("keys", "list", keys).stdout, r"ben +steer")
+        self.assertIn("[key-exists]", roboss("keys", "add", keys, "ann", "--role", "client").stderr)
+        self.assertIn("[bad-name]", roboss("keys", "add", keys, "users", "--role", "client").stderr)
         with Served("--view", "0.0.0.0:0", "--view-users", users, "--log", "-") as run:
             self.assertNotIn("token=", run.url)
             self.assertEqual(Page(run).get("/")[0], 403)

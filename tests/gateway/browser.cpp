@@ -101,7 +101,7 @@ Browser::Browser(const ViewerUrl& url, const SocketHeaders& headers) : socket_(i
             request.set(http::field::sec_websocket_protocol, headers.subprotocol);
         if (headers.origin != kLeftOut)
             request.set(http::field::origin,
-                        headers.origin.empty() ? "http://" + url.authority() : headers.origin);
+                        headers.origin.empty() ? url.scheme + "://" + url.authority() : headers.origin);
     }));
     const std::string host = headers.host.empty() ? url.authority() : headers.host;
     socket_.handshake(host, headers.target, error);

@@ -26,7 +26,7 @@ struct HttpAnswer {
 
 /// "http://127.0.0.1:8090/?token=..." in its parts.
 struct ViewerUrl {
-    std::string host, port, token;
+    std::string host, port, token, scheme = "http";  // that of the Origin
     explicit ViewerUrl(const std::string& url);
     std::string authority() const { return host + ":" + port; }
 };

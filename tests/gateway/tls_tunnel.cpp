@@ -104,7 +104,9 @@ TlsTunnel::~TlsTunnel() {
 ViewerUrl TlsTunnel::url(const std::string& token) const {
     const std::string page =
         "http://127.0.0.1:" + std::to_string(parts_->acceptor.local_endpoint().port()) + "/";
-    return ViewerUrl(token.empty() ? page : page + "?token=" + token);
+    ViewerUrl url(token.empty() ? page : page + "?token=" + token);
+    url.scheme = "https";
+    return url;
 }
 
 std::string TlsTunnel::failure() const {

@@ -27,6 +27,10 @@ class UserList {
         const std::scoped_lock lock(mutex_);
         std::erase_if(users_, [&](const PageUser& user) { return user.name == name; });
     }
+    void change(const std::string& name, PageRole role) {
+        const std::scoped_lock lock(mutex_);
+        std::ranges::find(users_, name, &PageUser::name)->role = role;
+    }
     void set_broken(bool broken) {
         const std::scoped_lock lock(mutex_);
         broken_ = broken;
@@ -127,8 +131,7 @@ TEST_F(Users, OneWhoIsAddedMayComeAndOneWhoseRightChangesComesAgain) {
         dan = page_of("dan", url);
     }
     ASSERT_TRUE(dan->connected());
-    list.remove("dan");
-    list.add("dan", PageRole::kWatch);
+    list.change("dan", PageRole::kWatch);
     ASSERT_TRUE(dan->until([&] { return dan->closed(); }));
     EXPECT_TRUE(run->says("the rights of dan were changed"));
     dan = page_of("dan", url);

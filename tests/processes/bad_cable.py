@@ -31,7 +31,7 @@ def missing():
 
 
 def is_fragment(frame):
-    """Of an IPv4 packet: more of it follow, or it is not the first."""
+    """True if the frame holds a fragment of an IPv4 packet."""
     return frame[12:14] == b"\x08\x00" and int.from_bytes(frame[20:22], "big") & 0x3FFF != 0
 
 

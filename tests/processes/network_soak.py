@@ -1,8 +1,9 @@
 #!/usr/bin/env python3
-"""Rounds of a run over three hosts (network namespaces) whose cables lose, repeat and delay packets, while Simulators, the
-Client or the Controller are killed, stopped or cut off. Every round must end with exit code 0 and the state hash of one process, within three times
-the undisturbed time, and nobody may wait in silence for more than ten seconds. Needs root and ip(8). Not part of the tests: it
-takes a quarter of an hour.
+"""Rounds of a run over three hosts (network namespaces) on a bad network, while its members are killed.
+
+The cables lose, repeat and delay packets; Simulators, the Client or the Controller are killed, stopped or cut off. Every round
+must end with exit code 0 and the state hash of one process, within three times the undisturbed time. Every wait of more than ten
+seconds must be reported. Needs root and ip(8). Not part of the tests: it takes a quarter of an hour.
 
     tests/processes/network_soak.py build/release/bin/roboss build/release/lib/roboss_city_driver.so worlds --rounds 50
 

@@ -35,8 +35,8 @@ computers, make a key for each, and copy its folder there (and nothing else; aut
   roboss simulator --controller node1 --keys sim-1                         on node2
   roboss keys revoke keys sim-1
 
-A Client's key may order every robot in every way and steer the run (pause, save, rewind, add and remove robots, end it),
-unless its rights are limited. They are signed with it, so only a new key changes them:
+A Client's key may order every robot in every way and steer the run (pause, save, rewind, add and remove robots, end
+it), unless its rights are limited. They are signed with it, so only a new key changes them:
 
   roboss keys add keys pilot --role client --robots 'car_*,spider' --orders actuators,velocity
   roboss keys add keys observer --role client --look-only
@@ -80,11 +80,15 @@ fs::path users_of(const KeysOptions& o) {
     return fs::path(o.folder) / kUsersFile;
 }
 
-/// Those of the folder; none if it has no file of them.
+/// Reads the users of the folder; none if it has no file of users.
 Result<std::vector<PageUser>> page_users(const KeysOptions& o) {
     std::error_code error;
-    if (!fs::exists(users_of(o), error)) return std::vector<PageUser>{};
+    if (!fs::is_regular_file(users_of(o), error)) return std::vector<PageUser>{};
     return read_page_users(users_of(o));
+}
+
+bool names_user(const std::vector<PageUser>& users, const std::string& name) {
+    return std::ranges::find(users, name, &PageUser::name) != users.end();
 }
 
 int add_user(const KeysOptions& o, const KeyRing& ring, PageRole role) {
@@ -106,6 +110,8 @@ int add(const KeysOptions& o) {
                      seat.error().remedy + "; for a user of the page watch, steer or administer",
                      seat.error().code});
     if (Result<> named = check_holder_name(o.name); !named) return fail(named.error());
+    if (o.name == kUsersFile)
+        return fail({"'" + o.name + "' is the name of the file of users", "give another name", "bad-name"});
     const Result<Rights> rights = rights_of(o);
     if (!rights) return fail(rights.error());
     if (page_role && !rights.value().everything())
@@ -115,6 +121,10 @@ int add(const KeysOptions& o) {
     Result<KeyRing> ring = KeyRing::open(o.folder);
     if (!ring) return fail(ring.error());
     if (page_role) return add_user(o, ring.value(), *page_role);
+    const Result<std::vector<PageUser>> users = page_users(o);
+    if (!users) return fail(users.error());
+    if (names_user(users.value(), o.name))
+        return fail({"'" + o.name + "' has a token already", "use it, or revoke it first", "key-exists"});
     if (Result<> added = ring.value().add(o.name, seat.value(), o.days, rights.value()); !added)
         return fail(added.error());
     say("{}/{}: the key of a {}, for its --keys\n", o.folder, o.name, o.role);
@@ -164,19 +174,19 @@ int list(const KeysOptions& o) {
     return kSuccess;
 }
 
+/// The key comes first: a file of users that cannot be read shall not keep it good.
 int revoke(const KeysOptions& o) {
     Result<KeyRing> ring = ring_of(o);
     if (!ring) return fail(ring.error());
+    const Result<> revoked = ring.value().revoke(o.name);
+    if (revoked)
+        say("the key of {} is revoked; Controllers with their keys elsewhere need the new file `revoked`\n",
+            o.name);
     const Result<std::vector<PageUser>> users = page_users(o);
     if (!users) return fail(users.error());
-    if (std::ranges::find(users.value(), o.name, &PageUser::name) != users.value().end()) {
-        if (Result<> removed = remove_page_user(users_of(o), o.name); !removed) return fail(removed.error());
-        say("the token of {} is revoked; runs notice it within a second or two\n", o.name);
-        return kSuccess;
-    }
-    if (Result<> revoked = ring.value().revoke(o.name); !revoked) return fail(revoked.error());
-    say("the key of {} is revoked; Controllers with their keys elsewhere need the new file `revoked`\n",
-        o.name);
+    if (!names_user(users.value(), o.name)) return revoked ? kSuccess : fail(revoked.error());
+    if (Result<> removed = remove_page_user(users_of(o), o.name); !removed) return fail(removed.error());
+    say("the token of {} is revoked; runs notice it within a second or two\n", o.name);
     return kSuccess;
 }
 

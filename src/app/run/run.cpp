@@ -377,6 +377,7 @@ Result<> Run::start_again(std::shared_ptr<const Model> model, const SavedRun& fr
     if (turn.orders != nullptr && !submit(*turn.orders, from.tick))
         return Error{"the orders of the orders file cannot be given again", "see the messages above"};
     pace_.begin(simulation_->tick());  // so that the speed limit does not catch up with the time before
+    if (!await_states(true)) return no_states();
     return journal_->begin_branch(*simulation_, turn.parent, turn.reason);
 }
 
@@ -427,6 +428,7 @@ bool Run::begin() {
     busy_until_ = start_;
     if (start_ > simulation_->tick() && !advance_to(start_)) return false;
     if (interrupted()) return true;
+    if (!await_states(false)) return !abandoned_ && (interrupted() || advance_to(simulation_->tick()));
     const Result<> begun = journal_->begin(*simulation_);
     if (!begun) return print(begun.error()), false;
     if (!o_.from.empty()) last_save_ = Kept{model_, saved_run(), journal_->branch()};

@@ -143,6 +143,7 @@ class Run {
     /// Waits for the states at this tick. False: no Simulator has them, 10 s after the run was interrupted or
     /// failed (with `request`: after the call), or no process is left that could bring them back.
     bool await_states(bool request);
+    static Error no_states();
     void report_notices();
     void stop(const Error& why);
     /// Prints why the run cannot continue, and keeps it for pages and members. Returns false.

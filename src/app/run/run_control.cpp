@@ -109,10 +109,7 @@ ControlOutcome Run::execute(const ControlAction& action) {
                 return ControlRefused(no_journal());  // take() serves those of a run with a journal
             } else {
                 const Tick tick = simulation_->tick();
-                if (needs_states(a) && !await_states(true))
-                    return ControlRefused(Error{"the Simulators that have the states at this tick are gone",
-                                                "repeat the request once a Simulator has joined",
-                                                "no-states"});
+                if (needs_states(a) && !await_states(true)) return ControlRefused(no_states());
                 Done done = act(a);
                 if (!done) return ControlRefused(done.error());
                 return ControlDone{tick, std::move(done).value()};

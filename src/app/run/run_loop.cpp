@@ -72,10 +72,16 @@ bool Run::await_states(bool request) {
         looked_after = members_->look_after(*simulation_);
         const bool ends = request || interrupted() || simulation_->failed();
         if (ends && !since_ms) since_ms = now_ms;
+        if (request && interrupted()) return false;  // the end of the run waits for them itself
         return looked_after.ok() && (!since_ms || now_ms - *since_ms < kPatience_ms);
     });
     if (!looked_after) abandoned_ = true, fail(looked_after.error());
     return here;
+}
+
+Error Run::no_states() {
+    return {"the Simulators that have the states at this tick are gone",
+            "repeat the request once a Simulator has joined", "no-states"};
 }
 
 /// Says once why the run cannot continue, behind what happened before.
@@ -198,6 +204,7 @@ bool Run::drive() {
     Tick seen = -1;  // the last tick whose due work is done
     for (;;) {
         serve_requests();
+        if (abandoned_) return false;  // while a request waited for states
         if (journal_->turns_at(simulation_->tick()) && !go_on()) return false;
         const Tick now = simulation_->tick();
         if (now != seen && !look(due)) return false;

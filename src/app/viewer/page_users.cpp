@@ -21,10 +21,10 @@ bool is_digest(const std::string& text) {
     return text.size() == kDigest && text.find_first_not_of("0123456789abcdef") == std::string::npos;
 }
 
-/// Those of a file that may be missing.
+/// Reads the users of a file, which may be missing.
 Result<std::vector<PageUser>> users_so_far(const fs::path& file) {
     std::error_code error;
-    if (!fs::exists(file, error)) return std::vector<PageUser>{};
+    if (!fs::is_regular_file(file, error)) return std::vector<PageUser>{};
     return read_page_users(file);
 }
 
