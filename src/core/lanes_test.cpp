@@ -22,20 +22,22 @@ struct PlainSet {
     template <class Vector>
     static constexpr std::size_t kCount = sizeof(Vector) / sizeof(Vector{}[0]);
 
+    template <class Vector, class Function>
+    static Vector each(Vector x, const Function& f) {
+        for (std::size_t i = 0; i < kCount<Vector>; ++i) x[i] = f(x[i]);
+        return x;
+    }
     template <class Vector>
     static Vector sqrt(Vector x) {
-        for (std::size_t i = 0; i < kCount<Vector>; ++i) x[i] = std::sqrt(x[i]);
-        return x;
+        return each(x, [](auto number) { return std::sqrt(number); });
     }
     template <class Vector>
     static Vector floor(Vector x) {
-        for (std::size_t i = 0; i < kCount<Vector>; ++i) x[i] = std::floor(x[i]);
-        return x;
+        return each(x, [](auto number) { return std::floor(number); });
     }
     template <class Vector>
     static Vector magnitude(Vector x) {
-        for (std::size_t i = 0; i < kCount<Vector>; ++i) x[i] = std::fabs(x[i]);
-        return x;
+        return each(x, [](auto number) { return std::fabs(number); });
     }
     template <class Vector>
     static unsigned bits(Vector m) {
@@ -81,7 +83,7 @@ const std::vector<double>& numbers() {
 template <class T>
 using Alone = std::conditional_t<kIsFloat<T>, Single, double>;
 
-/// Equal bits; one that is not a number is as good as another.
+/// Expects equal bits; any NaN equals any other.
 template <class T>
 void expect_lane(const T& x, std::size_t i, Alone<T> expected, const char* what) {
     const double ours = lane(x, i), right = lane(expected, 0);

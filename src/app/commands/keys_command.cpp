@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -76,29 +75,18 @@ Result<Rights> rights_of(const KeysOptions& o) {
                        o.steer || !limited);
 }
 
-fs::path users_of(const KeysOptions& o) {
+fs::path users_file(const KeysOptions& o) {
     return fs::path(o.folder) / kUsersFile;
-}
-
-/// Reads the users of the folder; none if it has no file of users.
-Result<std::vector<PageUser>> page_users(const KeysOptions& o) {
-    std::error_code error;
-    if (!fs::is_regular_file(users_of(o), error)) return std::vector<PageUser>{};
-    return read_page_users(users_of(o));
-}
-
-bool names_user(const std::vector<PageUser>& users, const std::string& name) {
-    return std::ranges::find(users, name, &PageUser::name) != users.end();
 }
 
 int add_user(const KeysOptions& o, const KeyRing& ring, PageRole role) {
     if (ring.has(o.name))
         return fail({"'" + o.name + "' has a key already", "use it, or revoke it first", "key-exists"});
-    const Result<std::string> token = add_page_user(users_of(o), o.name, role);
+    const Result<std::string> token = add_page_user(users_file(o), o.name, role);
     if (!token) return fail(token.error());
     say("{}\n", token.value());
     say(stderr, "roboss: the token of {}, for the page's address: ?token=...; {} is for --view-users\n",
-        o.name, users_of(o).string());
+        o.name, users_file(o).string());
     return kSuccess;
 }
 
@@ -121,7 +109,7 @@ int add(const KeysOptions& o) {
     Result<KeyRing> ring = KeyRing::open(o.folder);
     if (!ring) return fail(ring.error());
     if (page_role) return add_user(o, ring.value(), *page_role);
-    const Result<std::vector<PageUser>> users = page_users(o);
+    const Result<std::vector<PageUser>> users = page_users_of(users_file(o));
     if (!users) return fail(users.error());
     if (names_user(users.value(), o.name))
         return fail({"'" + o.name + "' has a token already", "use it, or revoke it first", "key-exists"});
@@ -150,7 +138,7 @@ int list(const KeysOptions& o) {
     if (!ring) return fail(ring.error());
     const Result<std::vector<Holder>> holders = ring.value().holders();
     if (!holders) return fail(holders.error());
-    const Result<std::vector<PageUser>> users = page_users(o);
+    const Result<std::vector<PageUser>> users = page_users_of(users_file(o));
     if (!users) return fail(users.error());
     if (o.json) {
         nlohmann::ordered_json all = nlohmann::ordered_json::array();
@@ -182,10 +170,10 @@ int revoke(const KeysOptions& o) {
     if (revoked)
         say("the key of {} is revoked; Controllers with their keys elsewhere need the new file `revoked`\n",
             o.name);
-    const Result<std::vector<PageUser>> users = page_users(o);
+    const Result<std::vector<PageUser>> users = page_users_of(users_file(o));
     if (!users) return fail(users.error());
     if (!names_user(users.value(), o.name)) return revoked ? kSuccess : fail(revoked.error());
-    if (Result<> removed = remove_page_user(users_of(o), o.name); !removed) return fail(removed.error());
+    if (Result<> removed = remove_page_user(users_file(o), o.name); !removed) return fail(removed.error());
     say("the token of {} is revoked; runs notice it within a second or two\n", o.name);
     return kSuccess;
 }

@@ -21,13 +21,6 @@ bool is_digest(const std::string& text) {
     return text.size() == kDigest && text.find_first_not_of("0123456789abcdef") == std::string::npos;
 }
 
-/// Reads the users of a file, which may be missing.
-Result<std::vector<PageUser>> users_so_far(const fs::path& file) {
-    std::error_code error;
-    if (!fs::is_regular_file(file, error)) return std::vector<PageUser>{};
-    return read_page_users(file);
-}
-
 Result<> write_users(const fs::path& file, const std::vector<PageUser>& users) {
     std::string text = "# users of the page: NAME ROLE SHA-256 of the token (roboss keys)\n";
     for (const PageUser& user : users)
@@ -36,6 +29,16 @@ Result<> write_users(const fs::path& file, const std::vector<PageUser>& users) {
 }
 
 }  // namespace
+
+bool names_user(const std::vector<PageUser>& users, const std::string& name) {
+    return std::ranges::find(users, name, &PageUser::name) != users.end();
+}
+
+Result<std::vector<PageUser>> page_users_of(const fs::path& file) {
+    std::error_code error;
+    if (!fs::is_regular_file(file, error)) return std::vector<PageUser>{};
+    return read_page_users(file);
+}
 
 Result<std::vector<PageUser>> read_page_users(const fs::path& file) {
     const Result<std::string> text = read_private(file);
@@ -50,8 +53,7 @@ Result<std::vector<PageUser>> read_page_users(const fs::path& file) {
         if (!(words >> name) || name.starts_with('#')) continue;
         const bool complete = static_cast<bool>(words >> role >> digest) && !(words >> more);
         const std::optional<PageRole> known = parse_page_role(role);
-        const bool again = std::ranges::find(users, name, &PageUser::name) != users.end();
-        if (!complete || !known || !is_digest(digest) || again || !check_holder_name(name))
+        if (!complete || !known || !is_digest(digest) || names_user(users, name) || !check_holder_name(name))
             return Error{fmt::format("{}:{} is no user of the page", file.string(), number),
                          "a line is NAME ROLE DIGEST, each name once; `roboss keys add` writes it",
                          "bad-users"};
@@ -62,9 +64,9 @@ Result<std::vector<PageUser>> read_page_users(const fs::path& file) {
 
 Result<std::string> add_page_user(const fs::path& file, const std::string& name, PageRole role) {
     if (Result<> named = check_holder_name(name); !named) return named.error();
-    Result<std::vector<PageUser>> users = users_so_far(file);
+    Result<std::vector<PageUser>> users = page_users_of(file);
     if (!users) return users.error();
-    if (std::ranges::find(users.value(), name, &PageUser::name) != users.value().end())
+    if (names_user(users.value(), name))
         return Error{"'" + name + "' has a token already", "use it, or revoke it first", "key-exists"};
     std::string token = random_token();
     users.value().push_back({name, role, token_digest(token)});
@@ -73,7 +75,7 @@ Result<std::string> add_page_user(const fs::path& file, const std::string& name,
 }
 
 Result<> remove_page_user(const fs::path& file, const std::string& name) {
-    Result<std::vector<PageUser>> users = users_so_far(file);
+    Result<std::vector<PageUser>> users = page_users_of(file);
     if (!users) return users.error();
     if (std::erase_if(users.value(), [&](const PageUser& user) { return user.name == name; }) == 0)
         return Error{"there is no key of '" + name + "'", "`roboss keys list` lists them", "no-key"};
