@@ -30,7 +30,7 @@ PageRole role_needed(const ControlAction& action);
 
 /// Somebody who may open the page, known by a token.
 struct PageUser {
-    std::string name;  // empty: whoever has the token
+    std::string name;  // empty: any holder of the token
     PageRole role = PageRole::kWatch;
     std::string digest;  // of the token (gateway/access.h)
     friend bool operator==(const PageUser&, const PageUser&) = default;

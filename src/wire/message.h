@@ -363,7 +363,7 @@ struct Rights;
 struct Envelope {
     Address from, to;
     Message message;
-    /// Of the sender's key, as the Bus knows it: no part of the message on the wire. Null: all.
+    /// Rights of the sender's key. The receiving Bus adds them; they are not on the wire. Null: all.
     std::shared_ptr<const Rights> rights{};
     friend bool operator==(const Envelope&, const Envelope&) = default;
 };

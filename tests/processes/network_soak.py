@@ -86,7 +86,7 @@ class Round:
         self.start(hosts, 2, "client", DRIVER, "--name", "driver").kind = "client"
 
     def wait(self, for_s):
-        """Lets time pass, and notes how long nobody says a word and the world does not advance."""
+        """Lets time pass, and measures how long no member reports anything while the world does not advance."""
         end = time.monotonic() + for_s
         while time.monotonic() < end and self.members[0].process.poll() is None:
             time.sleep(0.05)

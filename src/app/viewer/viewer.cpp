@@ -50,7 +50,7 @@ void add_access_options(CLI::App& command, ViewerOptions& o, const std::string& 
     command
         .add_option("--view-users", o.users,
                     "file of users, each with a token and a role (`roboss keys add KEYS NAME --role steer` "
-                    "writes KEYS/users); then nobody else may open the viewer, also on loopback")
+                    "writes KEYS/users); then only they may open the viewer, also on loopback")
         ->check(CLI::ExistingFile)
         ->group(group);
 }

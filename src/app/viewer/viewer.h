@@ -15,7 +15,7 @@ struct ViewerOptions {
     bool headless = false;            // none at all
     std::string role = "administer";  // the greatest that a page gets
     std::string certificate, key;     // PEM files; empty: made for this run where one is needed
-    std::string users;  // file of those who may open the page; empty: who has a token of the run
+    std::string users;  // file of those who may open the page; empty: holders of a token of the run
 };
 enum class ViewerDefault {
     kAlways,    // there is a viewer

@@ -286,7 +286,7 @@ TEST_F(Clients, OneThatMayLookOnlyDisturbsNothing) {
     EXPECT_NE(refused[0].reason.find("[not-permitted]"), std::string::npos) << refused[0].reason;
     join(kA, "driver", 10, 10, false, &rights);
     ASSERT_EQ(bus.take<ClientWelcome>(kA).size(), 1u);
-    EXPECT_FALSE(service().all_joined()) << "it takes nobody's place";
+    EXPECT_FALSE(service().all_joined()) << "it takes no other Client's place";
     join(kB, "driver", 10, 10);
     ASSERT_EQ(bus.take<ClientWelcome>(kB).at(0).client, ClientId(0u));
     const std::vector<ClientOrder> orders{{1, RobotId(0u), SetVelocity{}}};

@@ -15,7 +15,7 @@ namespace roboss {
 class RunNotices {
   public:
     void add(std::string text) { lines_.push_back(std::move(text)); }
-    /// What was refused, and why: of equal ones only the first, and no more than a hundred.
+    /// Reports a refusal and its reason: equal ones once, and at most a hundred.
     void add_refusal(const std::string& what, const Error& why) {
         constexpr std::size_t kMost = 100;
         std::string line =
