@@ -195,12 +195,12 @@ export interface Watched {
     errors: string[];
 }
 
-/** Opens the page and waits until the first State is drawn; with little effort, and without the card of first steps. */
+/** Opens the page and waits until the first State is drawn, with little effort. */
 export async function openPage(
     browser: Browser,
     run: Run,
     query = "",
-    { size = { width: 1100, height: 640 }, before = "quality=low" } = {},
+    { size = { width: 1100, height: 640 } } = {},
 ): Promise<Watched> {
     const context = await browser.newContext({ viewport: size, acceptDownloads: true }),
         page = await context.newPage(),
@@ -209,7 +209,7 @@ export async function openPage(
     page.on("console", (message) => message.type() === "error" && errors.push(message.text()));
     page.on("pageerror", (error) => errors.push(error.message));
     const url = new URL(run.url);
-    for (const [name, value] of new URLSearchParams(`${before}&${query.replace(/^[?]/, "")}`))
+    for (const [name, value] of new URLSearchParams(`quality=low&${query.replace(/^[?]/, "")}`))
         url.searchParams.set(name, value);
     await page.goto(url.toString());
     await page.waitForSelector("body[data-ready=true]");

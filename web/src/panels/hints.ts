@@ -1,12 +1,11 @@
 // What a newcomer needs to know, once: a card that never comes back after it was dismissed. It stands below the panel at the
 // right, which has room before a robot is selected; where panels are sheets, over the picture, which leaves it free.
 import type { Address } from "../model/address";
-import { keep, kept } from "../model/kept";
+import { dismissHints, hintsWanted } from "../model/first_visit";
 import { h } from "../ui/dom";
 import { COARSE } from "../ui/touch";
 import { NARROW } from "./sheets";
 
-const KEPT = "roboss.hints";
 const MOUSE = [
     "Drag turns the picture, right drag moves it, the wheel zooms.",
     "Click a robot to inspect it; double click follows it.",
@@ -18,13 +17,8 @@ const TOUCH = [
     "The tabs below open the panels. ⋯ holds what has no room.",
 ];
 
-/** Nothing where they were dismissed before, or are not wanted. */
 export function firstHints(address: Address, view: HTMLElement, panel: HTMLElement): void {
-    // Pictures and tests ask for a quality or for less around the picture.
-    if (["hide", "quality", "panel"].some((name) => address.get(name) !== null)) return;
-    const before = kept(KEPT);
-    // Where nothing can be kept, they would come each time.
-    if (before === "dismissed" || !keep(KEPT, before ?? "shown")) return;
+    if (!hintsWanted(address)) return;
     const element = h(
         "aside",
         { class: "hints", "aria-label": "First steps", "data-covers": "" },
@@ -37,7 +31,7 @@ export function firstHints(address: Address, view: HTMLElement, panel: HTMLEleme
     narrow.addEventListener("change", place);
     place();
     function dismiss(): void {
-        keep(KEPT, "dismissed");
+        dismissHints();
         narrow.removeEventListener("change", place);
         element.remove();
     }
