@@ -13,14 +13,10 @@
 #include "bus/bus.h"
 #include "core/result.h"
 #include "gateway/roles.h"
+#include "net/certificates.h"
 #include "wire/message.h"
 
 namespace roboss {
-
-/// PEM texts: a certificate, behind it those between it and its authority, and its key.
-struct PageCertificate {
-    std::string certificate, key;
-};
 
 struct GatewayOptions {
     std::string listen = "8090";  // [ADDRESS:]PORT
@@ -30,8 +26,10 @@ struct GatewayOptions {
     bool framed = false;                    // pages of this computer (a notebook) may show it in a frame
     bool journal = false;                   // the run keeps one: pages offer to rewind
     PageRole role = PageRole::kAdminister;  // the greatest that a page gets
-    std::optional<PageCertificate> certificate{};  // the page is served over TLS, and not otherwise
-    bool insecure = false;                         // without TLS also for other computers
+    /// Served over TLS with this certificate, behind which those between it and its authority may stand.
+    /// Empty: plain on loopback, elsewhere with one that is made for this page.
+    std::optional<KeyPair> certificate{};
+    bool insecure = false;  // plain elsewhere, too, unless there is a certificate
     /// Returns the users who may open the page; called in the gateway's thread, once a second. Empty:
     /// everybody on loopback, elsewhere the holders of a token of this run.
     std::function<Result<std::vector<PageUser>>()> users{};
@@ -46,7 +44,7 @@ struct GatewayLoad {
 
 class Gateway {
   public:
-    /// Listens at once; an Error says why it cannot. [unencrypted]: beyond loopback it needs a certificate.
+    /// Listens at once; an Error says why it cannot.
     static Result<std::unique_ptr<Gateway>> open(const GatewayOptions& options);
     ~Gateway();
 

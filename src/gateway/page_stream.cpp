@@ -33,7 +33,7 @@ void PageStream::finish(std::shared_ptr<void> session) {
     tcp().socket().shutdown(boost::asio::ip::tcp::socket::shutdown_send, ignored);
 }
 
-Result<std::shared_ptr<ssl::context>> tls_context(const PageCertificate& certificate) {
+Result<std::shared_ptr<ssl::context>> tls_context(const KeyPair& pair) {
     auto context = std::make_shared<ssl::context>(ssl::context::tls_server);
     SSL_CTX* native = context->native_handle();
     SSL_CTX_set_min_proto_version(native, TLS1_2_VERSION);
@@ -43,9 +43,9 @@ Result<std::shared_ptr<ssl::context>> tls_context(const PageCertificate& certifi
     // Without a callback OpenSSL would ask the terminal for the password of an encrypted key.
     context->set_password_callback([](std::size_t, ssl::context::password_purpose) { return std::string(); },
                                    error);
-    context->use_certificate_chain(boost::asio::buffer(certificate.certificate), error);
+    context->use_certificate_chain(boost::asio::buffer(pair.certificate), error);
     if (error) return bad_certificate("its certificate cannot be read", error.message());
-    context->use_private_key(boost::asio::buffer(certificate.key), ssl::context::pem, error);
+    context->use_private_key(boost::asio::buffer(pair.key), ssl::context::pem, error);
     if (error) return bad_certificate("its key cannot be read or is of another certificate", error.message());
     return context;
 }

@@ -74,7 +74,7 @@ class PageStream {
 
 /// TLS 1.2 and 1.3 with this certificate. An Error [bad-certificate]: the texts are no certificate and key,
 /// or do not belong together.
-Result<std::shared_ptr<boost::asio::ssl::context>> tls_context(const PageCertificate& certificate);
+Result<std::shared_ptr<boost::asio::ssl::context>> tls_context(const KeyPair& pair);
 
 /// SHA-256 of the certificate, as browsers show it: "AB:CD:...".
 std::string fingerprint_of(boost::asio::ssl::context& context);

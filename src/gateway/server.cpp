@@ -5,6 +5,7 @@
 
 #include "gateway/page_stream_session.h"
 #include "gateway/server_core_session.h"
+#include "net/run_keys.h"
 
 namespace roboss {
 namespace {
@@ -46,10 +47,15 @@ GatewayOptions with_users_limited(GatewayOptions options) {
     return options;
 }
 
-Result<> check_encrypted(const ListenAddress& at, const GatewayOptions& options) {
-    if (options.certificate || options.insecure || is_loopback(at.address)) return Ok{};
-    return Error{"the page would not be encrypted at " + at.address,
-                 "give it a certificate, or allow that with --insecure", "unencrypted"};
+/// TLS with the certificate given, or with one that is made here if others than this computer reach the page;
+/// null: it is plain.
+Result<std::shared_ptr<boost::asio::ssl::context>> tls_for(const ListenAddress& at,
+                                                           const GatewayOptions& options) {
+    if (options.certificate) return tls_context(*options.certificate);
+    if (options.insecure || is_loopback(at.address)) return std::shared_ptr<boost::asio::ssl::context>();
+    const Result<KeyPair> made = new_page_keys(at.address);
+    if (!made) return made.error();
+    return tls_context(made.value());
 }
 
 }  // namespace
@@ -60,13 +66,9 @@ Result<std::unique_ptr<Server>> Server::open(const GatewayOptions& wanted,
     Result<ListenAddress> address = parse_listen_address(options.listen);
     if (!address) return address.error();
     ListenAddress at = address.value();
-    if (Result<> encrypted = check_encrypted(at, options); !encrypted) return encrypted.error();
-    std::shared_ptr<boost::asio::ssl::context> tls;
-    if (options.certificate) {
-        Result<std::shared_ptr<boost::asio::ssl::context>> made = tls_context(*options.certificate);
-        if (!made) return made.error();
-        tls = std::move(made).value();
-    }
+    const Result<std::shared_ptr<boost::asio::ssl::context>> encryption = tls_for(at, options);
+    if (!encryption) return encryption.error();
+    const std::shared_ptr<boost::asio::ssl::context>& tls = encryption.value();
     Result<Door> door = door_for(at, options);
     if (!door) return door.error();
     std::unique_ptr<Server> server(new Server());

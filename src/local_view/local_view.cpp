@@ -4,10 +4,8 @@
 #include <random>
 
 #include "core/float_env.h"
-#include "gateway/access.h"
 #include "gateway/gateway.h"
 #include "local_view/stand_in.h"
-#include "net/run_keys.h"
 #include "scene/scene_codec.h"
 #include "scene/scene_file.h"
 
@@ -38,14 +36,7 @@ struct LocalView::Parts {
 };
 
 Result<std::unique_ptr<LocalView>> LocalView::open(const LocalViewOptions& options) {
-    const Result<ListenAddress> at = parse_listen_address(options.listen);
-    if (!at) return at.error();
     GatewayOptions wanted;
-    if (!options.insecure && !is_loopback(std::string_view(at.value().address))) {
-        const Result<KeyPair> made = new_page_keys(at.value().address);
-        if (!made) return made.error();
-        wanted.certificate = PageCertificate{made.value().certificate, made.value().key};
-    }
     wanted.insecure = options.insecure;
     wanted.listen = options.listen;
     wanted.page_folder = options.page_folder;

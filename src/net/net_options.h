@@ -32,9 +32,4 @@ struct NetOptions {
     std::uint32_t liveliness_ms = 900;
 };
 
-/// Whether others than this computer can reach this IPv4 address.
-inline bool is_loopback(const std::string& address) {
-    return address.rfind("127.", 0) == 0;
-}
-
 }  // namespace roboss

@@ -74,9 +74,9 @@ Result<> Switchboard::listen() {
         thread_->tls = TlsContext::make(keys.value().controller).value();
         note.keys = std::move(keys.value().member);
     }
-    const std::uint16_t port =
-        options_.port == 0 && !is_loopback(address.value()) ? kDefaultPort : options_.port;
-    const Thread::Tcp::endpoint end(asio::ip::make_address_v4(address.value()), port);
+    const asio::ip::address_v4 at = asio::ip::make_address_v4(address.value());
+    const std::uint16_t port = options_.port == 0 && !at.is_loopback() ? kDefaultPort : options_.port;
+    const Thread::Tcp::endpoint end(at, port);
     boost::system::error_code error;
     Thread::Tcp::acceptor& acceptor = thread_->acceptor;
     acceptor.open(end.protocol(), error);

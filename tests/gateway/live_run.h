@@ -27,7 +27,7 @@ struct LiveRunOptions {
     bool paused = false;
     PageRole role = PageRole::kAdminister;  // the greatest that a page gets
     bool insecure = false;                  // plain also beyond loopback
-    std::optional<PageCertificate> certificate{};
+    std::optional<KeyPair> certificate{};
     std::function<Result<std::vector<PageUser>>()> users{};
     std::vector<Order> orders;          // as of a file
     std::vector<TextureFile> textures;  // that the scene has

@@ -11,9 +11,8 @@
 namespace roboss::test {
 namespace {
 
-PageCertificate made_for(const std::vector<std::string>& names) {
-    const Result<KeyPair> made = new_server_certificate(names, 1);
-    return {made.value().certificate, made.value().key};
+KeyPair made_for(const std::vector<std::string>& names) {
+    return new_server_certificate(names, 1).value();
 }
 
 class OverTls : public Viewed {
@@ -23,7 +22,7 @@ class OverTls : public Viewed {
         options.certificate = certificate;
         return begin(std::move(options));
     }
-    PageCertificate certificate;
+    KeyPair certificate;
 };
 
 TEST_F(OverTls, ThePageItsSceneAndItsSocketAreServed) {
@@ -123,28 +122,42 @@ TEST_F(OverTls, StalledHandshakesNeverLockThePageOut) {
     EXPECT_TRUE(watching.until([&] { return watching.states() > states; })) << "a page that is open stays";
 }
 
-/// Why a gateway with these options does not open.
-std::string refusal_of(const std::string& listen, const std::optional<PageCertificate>& certificate) {
+Result<std::unique_ptr<Gateway>> opened_at(const std::string& listen,
+                                           const std::optional<KeyPair>& certificate = {},
+                                           bool insecure = false) {
     GatewayOptions options;
     options.listen = listen;
     options.certificate = certificate;
+    options.insecure = insecure;
     options.new_address = [] { return Address{}; };
-    const auto opened = Gateway::open(options);
+    return Gateway::open(options);
+}
+
+/// "http" or "https", by which this gateway's page starts.
+std::string scheme_at(const std::string& listen, bool insecure = false) {
+    const auto opened = opened_at(listen, {}, insecure);
+    const std::string url = opened.value()->url();
+    EXPECT_EQ(opened.value()->fingerprint().empty(), url.starts_with("http:")) << url;
+    return url.substr(0, url.find(':'));
+}
+
+std::string refusal_of(const std::string& listen, const KeyPair& certificate) {
+    const auto opened = opened_at(listen, certificate);
     return opened ? "" : opened.error().code;
 }
 
-TEST(TlsOptions, NothingPlainListensBeyondLoopbackUnlessInsecure) {
-    EXPECT_EQ(refusal_of("0.0.0.0:0", {}), "unencrypted");
-    EXPECT_EQ(refusal_of("[::]:0", {}), "unencrypted");
-    EXPECT_EQ(refusal_of("127.0.0.1:0", {}), "");
-    EXPECT_EQ(refusal_of("0.0.0.0:0", made_for({"lab"})), "");
+TEST(TlsOptions, BeyondLoopbackThePageHasACertificateOfItsOwnUnlessInsecure) {
+    EXPECT_EQ(scheme_at("0.0.0.0:0"), "https");
+    EXPECT_EQ(scheme_at("[::]:0"), "https");
+    EXPECT_EQ(scheme_at("0.0.0.0:0", true), "http");
+    EXPECT_EQ(scheme_at("127.0.0.1:0"), "http");
 }
 
 TEST(TlsOptions, WhatIsNoCertificateAndItsKeyIsRefused) {
-    const PageCertificate good = made_for({"lab"}), other = made_for({"lab"});
-    EXPECT_EQ(refusal_of("0", PageCertificate{"nonsense", good.key}), "bad-certificate");
-    EXPECT_EQ(refusal_of("0", PageCertificate{good.certificate, "nonsense"}), "bad-certificate");
-    EXPECT_EQ(refusal_of("0", PageCertificate{good.certificate, other.key}), "bad-certificate");
+    const KeyPair good = made_for({"lab"}), other = made_for({"lab"});
+    EXPECT_EQ(refusal_of("0", KeyPair{"nonsense", good.key}), "bad-certificate");
+    EXPECT_EQ(refusal_of("0", KeyPair{good.certificate, "nonsense"}), "bad-certificate");
+    EXPECT_EQ(refusal_of("0", KeyPair{good.certificate, other.key}), "bad-certificate");
     EXPECT_EQ(refusal_of("0", good), "");
 }
 

@@ -71,7 +71,7 @@ std::string reply(Browser& page, int id, const std::vector<std::string>& words) 
 TEST_F(Users, HaveThreeRightsOverTls) {
     LiveRunOptions with_tls = options();
     const KeyPair made = new_server_certificate({"127.0.0.1"}, 1).value();
-    with_tls.certificate = PageCertificate{made.certificate, made.key};
+    with_tls.certificate = made;
     const auto run = begin(with_tls);
     EXPECT_EQ(run->url().find("token"), std::string::npos) << "the run has no tokens of its own";
     EXPECT_TRUE(run->gateway().other_urls().empty());

@@ -13,7 +13,6 @@
 #include "gateway/access.h"
 #include "net/key_folder.h"
 #include "net/meeting_place.h"
-#include "net/run_keys.h"
 
 namespace roboss {
 namespace {
@@ -55,22 +54,13 @@ void add_access_options(CLI::App& command, ViewerOptions& o, const std::string& 
         ->group(group);
 }
 
-/// Given by files, or made for this run if others than this computer reach the page; none: it is plain.
-Result<std::optional<PageCertificate>> certificate_for(const ViewerOptions& o, bool insecure) {
-    if (!o.certificate.empty()) {
-        const Result<std::string> certificate = read_text(o.certificate), key = read_private(o.key);
-        for (const auto* text : {&certificate, &key})
-            if (!*text)
-                return Error{text->error().message, "see --view-cert and --view-key", text->error().code};
-        return std::optional(PageCertificate{certificate.value(), key.value()});
-    }
-    const Result<ListenAddress> at = parse_listen_address(o.listen);
-    if (!at) return at.error();
-    if (insecure || is_loopback(std::string_view(at.value().address)))
-        return std::optional<PageCertificate>();
-    const Result<KeyPair> made = new_page_keys(at.value().address);
-    if (!made) return made.error();
-    return std::optional(PageCertificate{made.value().certificate, made.value().key});
+/// The user's own certificate and key, if options name their files.
+Result<std::optional<KeyPair>> certificate_of(const ViewerOptions& o) {
+    if (o.certificate.empty()) return std::optional<KeyPair>();
+    const Result<std::string> certificate = read_text(o.certificate), key = read_private(o.key);
+    for (const auto* text : {&certificate, &key})
+        if (!*text) return Error{text->error().message, "see --view-cert and --view-key", text->error().code};
+    return std::optional(KeyPair{certificate.value(), key.value()});
 }
 
 }  // namespace
@@ -131,7 +121,7 @@ void print_urls(const Gateway& gateway) {
 }
 
 Result<std::unique_ptr<Gateway>> open_viewer(const ViewerOptions& o, bool journal, bool insecure) {
-    Result<std::optional<PageCertificate>> certificate = certificate_for(o, insecure);
+    Result<std::optional<KeyPair>> certificate = certificate_of(o);
     if (!certificate) return certificate.error();
     GatewayOptions options;
     options.listen = o.listen;
