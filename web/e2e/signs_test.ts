@@ -9,6 +9,7 @@ const trouble = (words: string) => fetch(new URL(`/mock/trouble?${words}`, bench
 
 bench.test("four views are four different views, from wherever one begins", async () => {
     const { page } = await openPage(bench.browser, bench.run, "views=4");
+    await page.evaluate(() => window.roboss.run.control("pause")); // a run that stands is drawn seldom
     const differ = async (told: string) => {
         const views = await page.evaluate(() =>
             window.roboss.views.shown.map(({ rig: { goal }, mode, robot }) => {
@@ -53,6 +54,7 @@ bench.test("four views are four different views, from wherever one begins", asyn
         const robots = await page.evaluate(() => window.roboss.views.shown.map(({ robot }) => robot));
         assert.deepEqual(robots, [5, 5, 5, 5], "all stay with the robot");
     }
+    await page.evaluate(() => window.roboss.run.control("resume"));
     await page.context().close();
 });
 

@@ -25,7 +25,6 @@ export class Atmosphere {
     private palette: ScenePalette = PALETTES.dark;
 
     constructor(
-        private readonly renderer: THREE.WebGLRenderer,
         private readonly scene: THREE.Scene,
         private readonly resolution: number,
     ) {
@@ -36,7 +35,7 @@ export class Atmosphere {
     paint(palette: ScenePalette): void {
         this.palette = palette;
         this.scene.environment?.dispose();
-        this.scene.environment = skyLight(this.renderer, palette);
+        this.scene.environment = skyLight(palette);
         this.apply();
     }
 

@@ -57,7 +57,7 @@ export class Stage {
         this.renderer.toneMappingExposure = 1.0;
         this.renderer.shadowMap.enabled = quality !== "low";
         this.renderer.shadowMap.type = THREE.PCFShadowMap;
-        this.atmosphere = new Atmosphere(this.renderer, this.scene, quality === "low" ? 0 : 2048);
+        this.atmosphere = new Atmosphere(this.scene, quality === "low" ? 0 : 2048);
         this.scene.add(this.overlays);
         new ResizeObserver(() => this.resize()).observe(canvas.parentElement as HTMLElement);
         this.resize();
