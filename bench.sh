@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Sets up, builds and runs the benchmarks: ./bench.sh [NAME] [flags]; without a name it lists them.
-# A name is a program of its own (peers, accuracy, table1, viewer, learning, cameras_beside_mujoco, smallest), or a Google Benchmark of roboss-bench; flags go on to it.
+# A name is a program of its own (peers, accuracy, table1, bus, viewer, learning, cameras_beside_mujoco, smallest), or a Google Benchmark of roboss-bench; flags go on to it.
 # Rows carry commit, compiler, CPU, world and number of robots; the same rows as JSON go to build/bench/NAME.json.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")"
@@ -58,6 +58,14 @@ table1() {
     printf 'rows as JSON: %s\n' "$rows"
 }
 
+# The Bus over TLS by itself: round trips, joins, barriers, idle CPU time (docs/decisions/0042-the-cluster-over-tls.md).
+bus() {
+    tools/setup.sh build bench
+    build roboss-bus
+    build/release/bin/roboss-bus --json build/bench/bus.json "$@"
+    printf 'rows as JSON: build/bench/bus.json\n'
+}
+
 # What browsers cost a run of 2000 moving cars: bytes, CPU of the gateway, speed of the simulation (docs/viewer.md).
 viewer() {
     tools/setup.sh build bench
@@ -100,6 +108,7 @@ google_benchmark() {
         printf 'peers  (RoBOSS beside ODE, Bullet, MuJoCo, DART: about half an hour; --quick: two; --help)\n'
         printf 'accuracy  (RoBOSS and the same engines against known truths: some minutes; --list; --help)\n'
         printf 'table1  (one world on 1 to 12 Simulators, the paper'"'"'s experiment: about 20 minutes; --help)\n'
+        printf 'bus  (messages and joins over TLS, processes of this computer: a minute; --help)\n'
         printf 'viewer  (what browsers cost a run of 2000 cars: a minute; --help)\n'
         printf 'learning  (agents in Python, beside MuJoCo: a quarter of an hour; --only 64: one; --help)\n'
         printf 'smallest  (all of them at their smallest sizes, only to see them end: some minutes)\n'
@@ -120,12 +129,12 @@ smallest() {
     tools/setup.sh build bench peers
     tools/fetch_mujoco.sh
     tools/fetch_peers.sh
-    tools/build.sh release -DROBOSS_BENCHMARKS=ON roboss-peers roboss-accuracy roboss-table1 roboss-viewer-cost roboss-bench \
+    tools/build.sh release -DROBOSS_BENCHMARKS=ON roboss-peers roboss-accuracy roboss-table1 roboss-bus roboss-viewer-cost roboss-bench \
         roboss_city_driver
     bench/smallest.py build/release/bin "$@"
 }
 
 case ${1:-} in
-    smallest | peers | accuracy | table1 | viewer | learning | cameras_beside_mujoco) "$@" ;;
+    smallest | peers | accuracy | table1 | bus | viewer | learning | cameras_beside_mujoco) "$@" ;;
     *) google_benchmark "$@" ;;
 esac

@@ -75,6 +75,10 @@ class Smallest:
         self.run("roboss-table1", "--driver", self.programs.parent / "lib/roboss_city_driver.so", "--pile",
                  ROOT / "worlds/pile.sdf", "--cars", 10, "--simulators", 1, 2, "--crowd", 10, "--seconds", 0.2, "--detach", 0)
 
+    def bus(self):
+        """Two members."""
+        self.run("roboss-bus", "--bytes", 1000, "--members", 2, "--idle", 0.1)
+
     def viewer(self):
         """A few cars, one browser."""
         self.run("roboss-viewer-cost", "--cars", 10, "--viewers", 1, "--rounds", 1, "--seconds", 1)
@@ -102,7 +106,7 @@ class Smallest:
         self.run(python, "-B", ROOT / "bench/cameras/beside_mujoco.py", "--rounds", 1, "--seconds", 0.1, "--threads", 1)
 
 
-NAMES = ("peers", "accuracy", "table1", "viewer", "google", "learning", "cameras_beside_mujoco")
+NAMES = ("peers", "accuracy", "table1", "bus", "viewer", "google", "learning", "cameras_beside_mujoco")
 
 
 def main(arguments):
