@@ -50,25 +50,9 @@ check_machine() {
         "remedy: name a folder on another disk"
 }
 
-# Debian's archives as this machine reaches them, one a line: URI SUITE. Those of another release get the name of this one.
-sources() {
-    local own
-    own=$(. /etc/os-release && printf '%s' "${VERSION_CODENAME:-}")
-    { apt-get indextargets --format '$(REPO_URI) $(RELEASE) $(COMPONENT)' 'Created-By: Packages' 2>/dev/null || true; } |
-        awk -v own="$own" -v release="$release" '$3 == "main" && ($2 == own || $2 == own "-updates" || $2 == own "-security") {
-            sub(own, release, $2); print $1, $2 }' | sort -u
-}
-
-# The first address of the release itself; Debian's own where this machine is another distribution.
-mirror() {
-    local found
-    found=$(sources | awk -v release="$release" '$2 == release { print $1; exit }')
-    printf '%s\n' "${found:-http://deb.debian.org/debian}"
-}
-
 make_root() {
     local log mirror keys=/usr/share/keyrings/debian-archive-keyring.gpg
-    mirror=$(mirror)
+    mirror=$("$here/debian_archives.sh" "$release" | sed -n '1s/ .*//p')
     [[ -f $keys ]] || fail 3 "the keys of Debian's archive are missing ($keys)" \
         "remedy: as root, apt-get install debian-archive-keyring"
     printf 'bare_root: a root of %s in %s, from %s\n' "$release" "$root" "$mirror"
@@ -101,7 +85,7 @@ keep() {
 copy_settings() {
     local bundle=${SSL_CERT_FILE:-/etc/ssl/certs/ca-certificates.crt}
     keep /etc/hosts /etc/resolv.conf /etc/hostname
-    { sources | grep . || printf '%s %s\n' "$(mirror)" "$release"; } | sed 's/^/deb /; s/$/ main/' >"$root/etc/apt/sources.list"
+    "$here/debian_archives.sh" "$release" | sed 's/^/deb /; s/$/ main/' >"$root/etc/apt/sources.list"
     keep /etc/apt/auth.conf /etc/apt/auth.conf.d/*.conf /etc/netrc
     { apt-config dump 2>/dev/null || true; } | grep -iv 'auto-detect' | grep -iE \
         '^Acquire::(https?|ftp|Retries|Check-Valid-Until|Check-Date|ForceIPv[46]|Languages)' \

@@ -11,8 +11,15 @@ flock 9  # another start may be making it
 stamp="$(${PYTHON:-python3} -c 'import sys; print(sys.executable, sys.version)') $(cat "$packages")"
 if [[ ! -f $venv/stamp || $(cat "$venv/stamp") != "$stamp" ]]; then
     rm -rf "$venv"
-    "${PYTHON:-python3}" -m venv "$venv" >&2
-    "$venv/bin/python" -m pip install --quiet --disable-pip-version-check -r "$packages" >&2
+    "${PYTHON:-python3}" -m venv "$venv" >&2 || {
+        printf 'python_env: %s cannot make an environment\n  remedy: tools/setup.sh python\n' "${PYTHON:-python3}" >&2
+        exit 1
+    }
+    "$venv/bin/python" -m pip install --quiet --disable-pip-version-check -r "$packages" >&2 || {
+        printf 'python_env: pip could not install the packages of %s (its message is above)\n' "$packages" >&2
+        printf '  remedy: no network, a full disk (df -h), or a Python without wheels of them? PYTHON=... names another one\n' >&2
+        exit 1
+    }
     printf '%s\n' "$stamp" >"$venv/stamp"
 fi
 printf '%s\n' "$venv/bin/python"

@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # Makes what users install without a compiler, in dist/: tools/release.sh [--no-build]
-#   roboss-VERSION-*.whl                  the Python package, with the command `roboss` (tools/build_wheel.sh)
+#   roboss-VERSION-cp311-*.whl            the Python package, with the command `roboss` (tools/build_wheel.sh)
+#   roboss-VERSION-cp312-abi3-*.whl       the same for Python 3.12 and later (tools/build_abi3_wheel.sh)
 #   roboss-VERSION-linux-x86_64.tar.xz    runs from any folder: command, libraries, headers, page, worlds, control programs
 #   roboss_VERSION_amd64.deb              the same for /usr, with dependencies on Debian's packages
 #   SHA256SUMS
@@ -9,6 +10,7 @@ set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 [[ $# -eq 0 || $* == --no-build ]] || { printf 'usage: tools/release.sh [--no-build]\n' >&2; exit 2; }
 tools/build_wheel.sh "$@"  # also builds everything else, and empties dist/
+tools/build_abi3_wheel.sh
 tools/setup.sh release
 version=$(sed -n 's/^project(roboss VERSION \([0-9.]*\).*/\1/p' CMakeLists.txt)
 name=roboss-$version-linux-$(uname -m)

@@ -15,6 +15,23 @@ release() {
     (. "${ROBOSS_OS_RELEASE:-/etc/os-release}" 2>/dev/null && printf '%s' "${VERSION_CODENAME:-}") || true
 }
 
+supported=" bookworm trixie "
+by_hand="install the counterparts of tools/packages.txt by hand and set ROBOSS_SKIP_SETUP=1"
+
+# A release that the list does not know may have the packages under the same names, as Ubuntu mostly does. A group whose
+# names differ between releases would be installed in part, so that is an error.
+check_release() {
+    local name group package mark
+    name=$(. "${ROBOSS_OS_RELEASE:-/etc/os-release}" 2>/dev/null && printf '%s' "${PRETTY_NAME:-${VERSION_CODENAME:-}}") || true
+    [[ $supported != *" $(release) "* ]] || return 0
+    while read -r group package mark _; do
+        [[ $mark != only=* || " $* " != *" $group "* || $group == oracle || $group == check ]] || fail \
+            "${name:-this system} is not supported, and $package of the group $group has another name there
+  remedy: use Debian 12 or 13, or $by_hand"
+    done < <(grep -v '^#' "$here/packages.txt")
+    printf 'setup: %s is not supported (Debian 12 and 13 are); trying its packages of the same names\n' "${name:-this system}" >&2
+}
+
 # Prints the packages of the groups given, in the order of the list, but for those that a command makes unneeded and
 # those of another release.
 wanted_packages() {
@@ -47,16 +64,48 @@ install_packages() {
     printf 'setup: installing %s\n' "$*"
     # An update that fails in part (a dead third-party source) need not keep the packages away; the install tells.
     "${as_root[@]}" apt-get update -q || printf 'setup: apt-get update failed, trying with the lists that are there\n' >&2
-    "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive \
-        apt-get install -q -y --no-install-recommends "$@" || fail "apt-get could not install: $*
+    local log
+    log=$(mktemp) || fail "no file can be made in ${TMPDIR:-/tmp}
+  remedy: free some space there, or set TMPDIR to another folder"
+    if ! "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive LC_ALL=C.UTF-8 \
+        apt-get install -q -y --no-install-recommends "$@" 2>&1 | tee "$log"; then
+        local words
+        words=$(<"$log")
+        rm -f "$log"
+        explain "$words" "$@"
+    fi
+    rm -f "$log"
+}
+
+# Ends with the reason why apt-get did not install the packages, from its words.
+explain() {
+    local words=$1 unknown
+    shift
+    unknown=$(grep -oE "Unable to locate package [^ ]+|Package '?[^ ']+'? has no installation candidate" <<<"$words" |
+        sed -E "s/Unable to locate package //; s/Package '?([^ ']+).*/\1/" | sort -u | tr '\n' ' ') || true
+    if grep -qiE "No space left on device|enough free space" <<<"$words"; then
+        fail "the disk is full, apt-get could not install: $*
+  remedy: free some space, e.g. by  apt-get clean  (df -h shows which disk is full), and start again"
+    elif [[ -n $unknown ]]; then
+        # Without a network there may be no lists at all.
+        fail "this system's package lists do not have: $unknown
+  remedy: is the network there, and does  apt-get update  work? The packages are those of Debian 12 and 13 (main);
+  elsewhere, $by_hand"
+    elif grep -qiE "Temporary failure resolving|Could not resolve|Could not connect|Unable to connect|unreachable|Failed to fetch" <<<"$words"; then
+        fail "no network: apt-get could not fetch: $*
+  remedy: connect this machine, or name a proxy (http_proxy=..., or Acquire::http::Proxy in /etc/apt/apt.conf.d)"
+    fi
+    fail "apt-get could not install: $*
   remedy: read apt's message above; the packages are those of Debian 12 and 13 (tools/packages.txt)"
 }
 
 [[ $# -gt 0 ]] || fail "which groups? e.g. tools/setup.sh build test (see tools/packages.txt)"
 [[ ${ROBOSS_SKIP_SETUP:-} != 1 ]] || exit 0
 command -v dpkg-query >/dev/null && command -v apt-get >/dev/null || fail "this is no Debian system
-  remedy: install the counterparts of tools/packages.txt by hand and set ROBOSS_SKIP_SETUP=1"
+  remedy: $by_hand"
 mapfile -t wanted < <(wanted_packages "$@")
 [[ ${#wanted[@]} -gt 0 ]] || fail "no packages for $(release) in: $*"
 mapfile -t missing < <(missing_packages "${wanted[@]}")
-[[ ${#missing[@]} -eq 0 ]] || install_packages "${missing[@]}"
+[[ ${#missing[@]} -gt 0 ]] || exit 0
+check_release "$@"
+install_packages "${missing[@]}"

@@ -67,7 +67,8 @@ def crossroads():
 @pytest.fixture(scope="session")
 def clean_python(tmp_path_factory):
     """The Python of a new environment that has the wheel and what pip installs with it."""
-    wheel, = (REPOSITORY / "dist").glob("roboss-*.whl")
+    tag = "abi3" if sys.version_info >= (3, 12) else f"cp3{sys.version_info.minor}"  # tools/release.sh makes both
+    wheel, = (REPOSITORY / "dist").glob(f"roboss-*-{tag}-*.whl")
     folder = tmp_path_factory.mktemp("clean")
     subprocess.run([sys.executable, "-m", "venv", folder], check=True)
     python = folder / "bin" / "python"

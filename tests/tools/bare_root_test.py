@@ -49,7 +49,7 @@ class Tree(unittest.TestCase):
 class BareRoot(Tree):
     def setUp(self):
         super().setUp()
-        for name in ("bare_root.sh", "setup.sh", "packages.txt"):
+        for name in ("bare_root.sh", "debian_archives.sh", "setup.sh", "packages.txt"):
             shutil.copy(TOOLS / name, self.tree / "tools" / name)
         self.files({"a.txt": "one", "folder/b.txt": "two"})
 

@@ -96,6 +96,34 @@ class Setup(unittest.TestCase):
             self.assertIn(its, calls.split())
             self.assertNotIn(other, calls.split())
 
+    def test_says_that_a_release_is_not_supported_and_tries(self):
+        code, output, calls = self.run_setup([], "bench", ROBOSS_OS_RELEASE=self.os_release("noble"))
+        self.assertEqual(code, 0, output)
+        self.assertIn("noble is not supported (Debian 12 and 13 are)", output)
+        self.assertIn("libbenchmark-dev", calls)
+        self.assertNotIn("not supported", self.run_setup([], "bench", ROBOSS_OS_RELEASE=self.os_release("trixie"))[1])
+
+    def test_refuses_a_group_whose_names_an_unsupported_release_does_not_have(self):
+        code, output, calls = self.run_setup([], "run", ROBOSS_OS_RELEASE=self.os_release("bullseye"))
+        self.assertEqual((code, calls), (1, ""))
+        self.assertIn("bullseye is not supported, and libpng16-16 of the group run has another name there", output)
+        self.assertIn("ROBOSS_SKIP_SETUP=1", output)
+
+    def test_says_why_apt_failed_and_what_to_do(self):
+        for words, said, remedy in (
+                ("E: Unable to locate package libbenchmark-dev", "do not have: libbenchmark-dev", "apt-get update"),
+                ("E: Package 'libbenchmark-dev' has no installation candidate", "do not have: libbenchmark-dev", "by hand"),
+                ("E: Failed to fetch x  Temporary failure resolving 'm'", "no network: apt-get could not fetch: libbenchmark-dev", "proxy"),
+                ("E: You don't have enough free space in /var/cache/apt/archives/.", "the disk is full", "apt-get clean"),
+                ("E: Failed to fetch x  Write error - write (28: No space left on device)", "the disk is full", "df -h"),
+                ("E: something else", "apt-get could not install: libbenchmark-dev", "read apt's message")):
+            with self.subTest(words=words):
+                self.stand_in("apt-get", f'#!/bin/bash\n[[ $1 == install ]] || exit 0\necho "{words}" >&2\nexit 100\n')
+                code, output, _ = self.run_setup([], "bench", ROBOSS_OS_RELEASE=self.os_release("bookworm"))
+                self.assertEqual(code, 1)
+                for word in (words, said, "  remedy: ", remedy):
+                    self.assertIn(word, output)
+
     def test_refuses_a_group_that_is_not_there(self):
         code, output, _ = self.run_setup([], "nonsense", ROBOSS_OS_RELEASE=self.os_release("trixie"))
         self.assertEqual(code, 1)
