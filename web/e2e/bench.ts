@@ -186,7 +186,14 @@ export function startBrowser(): Promise<Browser> {
         throw new Error("no Chromium: install Debian's package chromium, or name one with CHROMIUM=/path");
     return chromium.launch({
         executablePath: CHROMIUM,
-        args: ["--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--no-sandbox"],
+        // Debian turns --enable-gpu-rasterization on: text drawn by shaders that the processor runs costs more than the scene.
+        args: [
+            "--disable-gpu-rasterization",
+            "--use-gl=angle",
+            "--use-angle=swiftshader",
+            "--enable-unsafe-swiftshader",
+            "--no-sandbox",
+        ],
     });
 }
 
