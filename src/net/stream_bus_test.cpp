@@ -284,6 +284,31 @@ TEST(StreamBus, WhoSendsMoreThanIsReadHasToWait) {
     EXPECT_TRUE(controller->take_vanished(kControllerAddress).empty());
 }
 
+TEST(StreamBus, WhoDoesNotReadFillsNoSenderAndLosesMessages) {
+    const NetOptions options = loopback("slow");
+    const auto controller = controller_of(options), slow = member_of(options, kOne),
+               other = member_of(options, kTwo);
+    ASSERT_TRUE(becomes([&] { return controller->present(kOne) && controller->present(kTwo); }));
+    constexpr std::size_t kMessages = 100;
+    for (std::size_t i = 0; i < kMessages; ++i)  // 64 MiB there, 256 MiB here, some MB in the kernel
+        controller->send(kControllerAddress, kOne, reply_of(4'000'000));
+    controller->send(kControllerAddress, kTwo, Expelled{});
+    EXPECT_EQ(receive(*other, kTwo, 1).size(), 1u) << "the others are served";
+    std::vector<Envelope> inbox;
+    std::size_t arrived = 0;
+    for (int quiet = 0; quiet < 20; ++quiet) {
+        slow->drain(kOne, inbox);
+        if (!inbox.empty()) quiet = 0;
+        arrived += inbox.size();
+        slow->wait(100);
+    }
+    EXPECT_GT(arrived, 70u);
+    EXPECT_LT(arrived, 95u) << "of 400 MB";
+    controller->send(kControllerAddress, kOne, Expelled{});
+    EXPECT_EQ(receive(*slow, kOne, 1).size(), 1u);
+    EXPECT_TRUE(controller->present(kOne));
+}
+
 TEST(StreamBus, WrongOptionsAreRefusedInWords) {
     NetOptions options = loopback("bad");
     options.interface = "no-such-interface";
