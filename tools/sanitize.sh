@@ -1,11 +1,15 @@
 #!/usr/bin/env bash
-# Runs the tests under sanitizers: `tools/sanitize.sh [asan|ubsan|tsan ...] [-- ctest arguments]`, each in a build folder of
-# its own. Without a name: all three. tsan finds data races; run it over what has threads, e.g. `tsan -- -R pool`.
+# Runs the tests under sanitizers: `tools/sanitize.sh [asan|ubsan|tsan|fuzz ...] [TARGET ...] [-- ctest arguments]`, each in
+# a build folder of its own. Without a name: asan, ubsan, tsan; fuzz is asan and ubsan in one build. With targets only
+# these are built, so choose their tests with -R. tsan finds data races; run it over what has threads, e.g. `tsan -- -R pool`.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
-presets=()
+presets=() targets=()
 while [[ $# -gt 0 && $1 != -- ]]; do
-    presets+=("$1")
+    case $1 in
+        asan | ubsan | tsan | fuzz) presets+=("$1") ;;
+        *) targets+=("$1") ;;
+    esac
     shift
 done
 [[ $# -eq 0 ]] || shift
@@ -18,7 +22,7 @@ export UBSAN_OPTIONS=${UBSAN_OPTIONS:-print_stacktrace=1}
 export TSAN_OPTIONS=${TSAN_OPTIONS:-suppressions=$PWD/tools/tsan.supp:history_size=7}
 failed=()
 for preset in "${presets[@]}"; do
-    tools/build.sh "$preset"
+    tools/build.sh "$preset" "${targets[@]}"
     # The checks of the source and of the installation need no second run.
     ctest --test-dir "build/$preset" --output-on-failure --no-tests=error -j "$(tools/jobs.sh)" \
         -E '^(source|tools|install)\.' "$@" || failed+=("$preset")
