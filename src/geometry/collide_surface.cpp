@@ -7,6 +7,7 @@
 
 #include "geometry/closest_point.h"
 #include "geometry/collide_general.h"
+#include "geometry/over_triangle.h"
 #include "geometry/ridge_direction.h"
 
 namespace roboss {
@@ -14,12 +15,10 @@ namespace {
 
 using namespace narrow;
 
-constexpr double kTops = 1e-6;                   // sine by which a neighbour may rise along a normal
-constexpr double kUpright = 0.9;                 // cosine
-constexpr double kShallow = 0.05;                // of the body's size: deeper, a face may not be the way out
-constexpr double kBorder = 2e-6, kMerge = 1e-4;  // of the body's size
-constexpr double kSameDirection = 0.98;          // cosine within which contacts are reduced together
-constexpr std::uint32_t kFace = 6;               // a triangle's part: inside it
+constexpr double kTops = 1e-6;           // sine by which a neighbour may rise along a normal
+constexpr double kUpright = 0.9;         // cosine
+constexpr double kMerge = 1e-4;          // of the body's size
+constexpr double kSameDirection = 0.98;  // cosine within which contacts are reduced together
 constexpr std::uint32_t kAnywhere = 0xFFFFF;
 constexpr double kDeeper = 1e-9;  // m
 constexpr double kFar = 1e-9;     // m beyond the margin: more than rounding
@@ -44,19 +43,16 @@ class SurfaceCollider {
         if (s_face > margin_) return;
         number_ = number;
         const bool shallow = s_face > -kShallow * body_.size();
-        if (height >= 0.0) {  // mostly the face alone tells all
-            take({only_face.v, only_face.n, {}, {}}, turns);
-            if (shallow && body_.is_pointed())
-                if (const ClippedFeature over = points_over(); !over.points.empty())
-                    return add_face(over, out_.candidates);
-            if (is_far()) return;
-        }
-        take(surface_.triangle(number), turns);
+        take({only_face.v, only_face.n, {}, {}}, turns);
+        if (height >= 0.0 && body_.is_round()) return collide_ball(turns);
+        if (height >= 0.0 && is_far()) return;
         const ClippedFeature over = points_over();
+        const bool over_it = !over.points.empty() && over.deepest() <= s_face + kLowest * body_.size();
+        if (height < 0.0 || (shallow && over_it)) return add_face(over, out_.candidates);
+        take(surface_.triangle(number), turns);  // only now its neighbours count
         const bool ridge = std::any_of(triangle_.fold.begin(), triangle_.fold.end(),
                                        [](double fold) { return fold < kRidgeFold; });
-        const bool over_it = !over.points.empty() && over.deepest() <= s_face + 1e-6 * body_.size();
-        if ((shallow && (!ridge || over_it)) || height < 0.0) return add_face(over, out_.candidates);
+        if (shallow && !ridge) return add_face(over, out_.candidates);
         collide_ridge(over, shallow);
     }
 
@@ -79,27 +75,7 @@ class SurfaceCollider {
 
     std::size_t corner_of_surface(std::size_t k) const { return turned_ && k > 0 ? 3 - k : k; }
 
-    /// The part over the triangle of the body's feature that is furthest down.
-    ClippedFeature points_over() const {
-        const Vec3& n = triangle_.n;
-        const double border = kBorder * body_.size();
-        ClippedFeature over;
-        if (!body_.is_pointed()) {
-            Feature face;
-            face.n = n;
-            face.face_part = kFace;
-            for (std::uint32_t k = 0; k < 3; ++k) face.add(triangle_.v[k], k, 3 + k);
-            return clip_over(face, body_.feature(-n), body_.ball(), border, kMerge * body_.size());
-        }
-        const Vec3 p = body_.centre() + body_.support(-n);
-        for (std::size_t k = 0; k < 3; ++k) {
-            const Vec3 inward = cross(n, triangle_.v[(k + 1) % 3] - triangle_.v[k]);
-            const double depth = dot(inward, p - triangle_.v[k]);
-            if (depth < 0 && depth * depth > border * border * norm_squared(inward)) return over;
-        }
-        over.points.push_back({p, dot(n, p - triangle_.v[0]) - body_.ball(), 0, kFace});
-        return over;
-    }
+    ClippedFeature points_over() const { return narrow::points_over(body_, triangle_.v, triangle_.n); }
 
     /// True only if the body is further than the margin; quick, and mostly true where it is.
     bool is_far() const {
@@ -109,7 +85,6 @@ class SurfaceCollider {
     }
 
     void collide_ridge(const ClippedFeature& over, bool shallow) {
-        if (body_.is_round()) return collide_round(over, shallow);
         const double enough = margin_ + body_.ball();
         RidgeDirection found = ridge_direction(body_, triangle_, enough);
         if (found.across == Across::kApart) return;
@@ -118,18 +93,27 @@ class SurfaceCollider {
         if (found.across == Across::kNeighbour && (shallow || surface_.is_ground() || over.points.empty()))
             return add_face(over, out_.candidates);
         if (found.across != Across::kRidge) {
+            const std::optional<Separation> at_corner = corner_separation(body_, triangle_.v);
             const ConvexBody sheet(triangle_.v, triangle_.n);
-            found.best = best_separation(body_, sheet, enough);
+            found.best = at_corner ? *at_corner : best_separation(body_, sheet, enough);
         }
         if (found.best.s <= enough) add_along(found.best, over, shallow);
     }
 
-    /// A ball.
-    void collide_round(const ClippedFeature& over, bool shallow) {
-        const Vec3 away = body_.centre() - closest_point(triangle_.v, body_.centre());
-        const double distance = norm(away);
-        if (distance > margin_ + body_.ball()) return;
-        add_along({distance > 0.0 ? away / distance : triangle_.n, distance}, over, shallow);
+    /// A ball whose centre is above the face: the closest point of the triangle tells all.
+    void collide_ball(bool turns) {
+        if (const ClippedFeature over = points_over(); !over.points.empty())
+            return add_face(over, out_.candidates);
+        const Vec3 foot = closest_point(triangle_.v, body_.centre()), away = body_.centre() - foot;
+        const double distance = norm(away), gap = distance - body_.ball();
+        if (gap > margin_ || distance == 0.0) return;
+        take(surface_.triangle(number_), turns);
+        const ConvexBody sheet(triangle_.v, triangle_.n);
+        const Vec3 n = away / distance;
+        if (!is_own_normal(sheet, n)) return;
+        const Feature top = sheet.line(n, kTops);
+        add(foot + n * (0.5 * gap), n, gap, 0, top.count == 2 ? top.edge_part[0] : top.part[0],
+            out_.candidates);
     }
 
     /// `best`: the way out of the triangle alone.
@@ -175,7 +159,7 @@ class SurfaceCollider {
     void add(const Vec3& p, const Vec3& n, double gap, std::uint32_t part, std::uint32_t triangle_part,
              std::vector<SurfaceContact>& to) {
         // A corner of the body keeps its name as it passes from triangle to triangle.
-        const std::uint32_t place = triangle_part == kFace ? kAnywhere : number_;
+        const std::uint32_t place = triangle_part == kTriangleFace ? kAnywhere : number_;
         to.push_back({p, n, gap, place << 12 | (part & 0xFFu) << 4 | (triangle_part & 0xFu)});
     }
 

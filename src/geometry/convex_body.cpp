@@ -105,6 +105,23 @@ double ConvexBody::reach(const Vec3& d_W) const {
     }
 }
 
+std::optional<Vec3> ConvexBody::closest_to(const Vec3& p_W) const {
+    if (core_ == Core::kPoint) return centre_;
+    if (core_ == Core::kTriangle || core_ == Core::kHull || core_ == Core::kEllipsoid) return {};
+    const Shape& s = posed_->shape;
+    const Vec3 p = transpose_times(posed_->X.R, p_W - centre_);
+    const auto within = [](double x, double most) { return std::clamp(x, -most, most); };
+    Vec3 on{0, 0, within(p.z, core_ == Core::kBox ? s.half.z : s.half_length)};
+    if (core_ == Core::kBox) on.x = within(p.x, s.half.x), on.y = within(p.y, s.half.y);
+    if (core_ == Core::kCylinder) {
+        const double radial = std::sqrt(p.x * p.x + p.y * p.y),
+                     scale = radial > s.radius ? s.radius / radial : 1;
+        on.x = p.x * scale, on.y = p.y * scale;
+    }
+    if (on == p) return {};
+    return centre_ + posed_->X.R * on;
+}
+
 FixedList<Vec3, 3> ConvexBody::kinks() const {
     FixedList<Vec3, 3> axes;
     if (core_ == Core::kBox)

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 
 #include "geometry/convex_hull.h"
 #include "geometry/fixed_list.h"
@@ -60,6 +61,8 @@ class ConvexBody {
     Vec3 support(const Vec3& d) const;
     /// d . support(d).
     double reach(const Vec3& d) const;
+    /// The core's point closest to a point outside of it; none for an ellipsoid, a hull and a triangle.
+    std::optional<Vec3> closest_to(const Vec3& p) const;
     /// Axes of straight edges and lines, and of rims, so that the support point jumps where d is
     /// perpendicular to one; those of a hull are too many and are left out.
     FixedList<Vec3, 3> kinks() const;

@@ -7,6 +7,7 @@
 #include "geometry/closest_direction.h"
 #include "geometry/closest_point.h"
 #include "geometry/collide_general.h"
+#include "geometry/over_triangle.h"
 
 namespace roboss {
 namespace {
@@ -174,16 +175,21 @@ class TriangleSweep {
         const Course still{};
         const double over = height - body.reach(-triangle.n) - body.ball();
         if (over > closing_speed(course_, still, triangle.n, 0, dt_) * dt_) return {};
+        const Vec3 away = body.centre() - closest_point(triangle.v, body.centre());
+        const double distance = norm(away);
+        const Vec3 start = distance > 0 ? away / distance : triangle.n;
+        const double beside = distance - body.reach(-start) - body.ball();
+        if (beside > closing_speed(course_, still, start, 0, dt_) * dt_) return {};
+        if (over <= kImpactGap && points_over(body, triangle.v, triangle.n).deepest() <= kImpactGap)
+            return {};
         const ConvexBody sheet(triangle.v, triangle.n);
         const auto sum_at = [&](double t, const auto& act) {
             const Placed there(course_, t);
             return act(GeneralSum(there.body, sheet));
         };
         const Apartness apartness(sum_at, body.ball(), acceleration_);
-        const Vec3 away = body.centre() - closest_point(triangle.v, body.centre());
-        const double distance = norm(away);
-        if (apartness.is_proven(dt_, distance > 0 ? away / distance : triangle.n, 1)) return {};
-        const auto find = [&](double t) { return manifold(sheet, course_.at(t)); };
+        if (apartness.is_proven(dt_, start, 1)) return {};
+        const auto find = [&](double t) { return manifold(triangle, sheet, course_.at(t)); };
         m = find(0);
         if (m.count == 0 || least_gap(m) <= kImpactGap) return {};
         const auto met = advance(course_, still, dt_, deep_, m, find,
@@ -192,12 +198,14 @@ class TriangleSweep {
     }
 
   private:
-    Manifold manifold(const ConvexBody& sheet, const Transform& X) const {
+    Manifold manifold(const SurfaceFace& face, const ConvexBody& sheet, const Transform& X) const {
         const Posed posed{*course_.shape, X};
         const ConvexBody body(posed);
+        const double enough = margin_ + body.ball();
+        const std::optional<Separation> plain = plain_separation(body, face, enough);
+        const Separation best = plain ? *plain : best_separation(body, sheet, enough);
         Manifold m;
-        const Separation best = best_separation(body, sheet, margin_ + body.ball());
-        if (best.s <= margin_ + body.ball()) write_general(body, sheet, best, margin_, m);
+        if (best.s <= enough) write_general(body, sheet, best, margin_, m);
         return m;
     }
 

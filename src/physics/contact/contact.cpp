@@ -98,6 +98,15 @@ Mat3 friction_axes(const RobotWork& robot, std::uint32_t shape) {
     return body < 0 ? shape_pose(robot, shape).R : robot.bodies[static_cast<std::size_t>(body)].X_WB.R;
 }
 
+/// Speed at which the surface of a body's shape may approach something, at most: a wheel that turns about its
+/// axis moves no point of its rim outwards. m/s.
+double outward_speed(const RobotWork& robot, std::size_t number, const Transform& X_WS) {
+    const BodyShape& shape = robot.type->shapes[number];
+    const Spatial& v = robot.bodies[static_cast<std::size_t>(shape.body)].velocity;
+    return norm(v.linear + cross(v.angular, X_WS.p - robot.origin)) +
+           turning_speed<double>(shape.shape, X_WS.R, v.angular);
+}
+
 /// Of the robot or one behind it.
 std::size_t first_contact(std::size_t robot, std::span<const Contact> contacts) {
     const auto at = std::ranges::lower_bound(contacts, static_cast<int>(robot), {}, &Contact::robot_a);
@@ -255,8 +264,13 @@ void ContactFinder::with_surface(const Model& model, std::span<const RobotWork> 
     SweepBuffers& b = *buffers_;
     collide_surface(robot.type->shapes[pair.shape_a].shape, placed.X_WS, surface, scenery.X_WS, margin,
                     b.found);
-    const auto passes = [&](const SurfaceContact& c) { return may_pass(c.gap, displacement); };
-    if (displacement <= kFastDisplacement && std::ranges::none_of(b.found.points, passes))
+    const auto none_passes = [&](double by) {
+        return by <= kFastDisplacement && std::ranges::none_of(b.found.points, [&](const SurfaceContact& c) {
+                   return may_pass(c.gap, by);
+               });
+    };
+    if (none_passes(displacement) ||
+        none_passes(model.dt_s * outward_speed(robot, pair.shape_a, placed.X_WS)))
         return add_points(b.found.points, pair, keep, contacts);
     const Course moving = course(model, robots, pair.robot_a, pair.shape_a), still{};
     const SweptPair judged = sweep(moving, surface, scenery.X_WS, model.dt_s, margin, b);
