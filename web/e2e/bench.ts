@@ -223,6 +223,15 @@ export async function openPage(
     return { page, errors };
 }
 
+/** Draws with a hundredth of the pixels from now on, until the window changes: for tests that judge no picture. */
+export function fewPixels(page: Page): Promise<void> {
+    return page.evaluate(() => {
+        const { renderer, canvas } = window.roboss.stage;
+        renderer.setPixelRatio(0.05);
+        renderer.setSize(canvas.clientWidth, canvas.clientHeight, false);
+    });
+}
+
 /** Presses a button of the top bar, which stands in its menu where the bar is too narrow. */
 export async function pressInBar(page: Page, label: string): Promise<void> {
     const button = page.getByLabel(label, { exact: true });

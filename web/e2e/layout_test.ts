@@ -2,7 +2,7 @@
 // With the mock gateway, at several sizes of the window.
 import assert from "node:assert/strict";
 import type { Page } from "playwright-core";
-import { Bench, openPage, PROGRAM, until } from "./bench";
+import { Bench, fewPixels, openPage, PROGRAM, until } from "./bench";
 import { apart, type Box, boxes, within } from "./boxes";
 
 const skip = PROGRAM === "" ? false : "the mock gateway shows it, too";
@@ -47,8 +47,10 @@ bench.test("nothing over the picture covers anything else, at four sizes of the 
 
 bench.test("the first steps stand beside the robots: below the side panel, on a phone where no robot is", async () => {
     await control("pause"); // a run that stands is drawn seldom
+    await fewPixels(bench.page);
     for (const size of [SIZES[0], SIZES[3]]) {
         const { page, errors } = await openPage(bench.browser, bench.run, "?hints", { size });
+        await fewPixels(page);
         await drawn(page);
         const [card] = await boxes(page, ".hints"),
             [picture] = await boxes(page, ".view canvas");
@@ -71,6 +73,7 @@ bench.test("the first steps stand beside the robots: below the side panel, on a 
         assert.deepEqual(errors, []);
         await page.context().close();
     }
+    await bench.page.setViewportSize({ width: 1101, height: 640 }); // all pixels again
     await control("resume");
 });
 

@@ -1,7 +1,7 @@
 // What the page says at a glance is so: views differ, colours and buttons tell the state of the run, equal times are as long,
 // and a run that failed says why. With the mock gateway.
 import assert from "node:assert/strict";
-import { Bench, openPage, PROGRAM, until } from "./bench";
+import { Bench, fewPixels, openPage, PROGRAM, until } from "./bench";
 
 const skip = PROGRAM === "" ? false : "the mock gateway shows it, too";
 const bench = new Bench({ cars: 24 }, skip);
@@ -10,7 +10,9 @@ const trouble = (words: string) => fetch(new URL(`/mock/trouble?${words}`, bench
 bench.test("four views are four different views, from wherever one begins", async () => {
     // A run that stands is drawn seldom: two pages that draw at once in software starve each other.
     await bench.page.evaluate(() => window.roboss.run.control("pause"));
+    await fewPixels(bench.page);
     const { page } = await openPage(bench.browser, bench.run, "views=4");
+    await fewPixels(page);
     const differ = async (told: string) => {
         const views = await page.evaluate(() =>
             window.roboss.views.shown.map(({ rig: { goal }, mode, robot }) => {
