@@ -76,9 +76,16 @@ export class Inspector {
             );
             return;
         }
-        this.element.replaceChildren(this.head(world, robot), h("p", { class: "empty" }, "Waiting for its report…"));
+        this.element.replaceChildren(this.head(world, robot));
+        this.fill(h("p", { class: "empty" }, "Waiting for its report…"));
         const last = this.state.report.value;
         if (last !== null && last.robot === robot && this.state.link.value.state === "open") this.show(last);
+    }
+
+    /** Replaces what is below the head, which stays: a click on it may be on its way. */
+    private fill(...content: Node[]): void {
+        while (this.element.childElementCount > 1) this.element.lastElementChild?.remove();
+        this.element.append(...content);
     }
 
     private head(world: World, robot: number): HTMLElement {
@@ -119,8 +126,7 @@ export class Inspector {
         this.bondSection.open = false;
         this.surfaces = section("Moving surfaces", h("div", { class: "surfaces" }));
         this.contacts = h("div", { class: "contacts" });
-        this.element.replaceChildren(
-            this.head(world, robot),
+        this.fill(
             section(
                 "Pose and velocity",
                 this.pose.element,
