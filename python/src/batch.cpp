@@ -17,7 +17,8 @@ struct Batch {
     Simulations simulations;  // one for each run
 };
 
-Batch make(std::shared_ptr<const Model> model, std::size_t count, unsigned threads, std::uint64_t seed) {
+Batch make_batch(std::shared_ptr<const Model> model, std::size_t count, unsigned threads,
+                 std::uint64_t seed) {
     Batch batch;
     batch.runs =
         value_or_raise(LocalBatch::create(model, count, {.threads = threads, .seed = seed}), "WorldError");
@@ -30,7 +31,7 @@ Batch make(std::shared_ptr<const Model> model, std::size_t count, unsigned threa
 }
 
 /// Which simulations stopped before the last tick.
-std::vector<bool> step(Batch& batch, Tick ticks) {
+std::vector<bool> step_batch(Batch& batch, Tick ticks) {
     std::vector<bool> stopped(batch.simulations.size());
     step_in_parts(ticks, [&](Tick part) {
         const std::vector<Result<>> results =
@@ -44,10 +45,10 @@ std::vector<bool> step(Batch& batch, Tick ticks) {
 
 void bind_batch(nb::module_& module) {
     nb::class_<Batch>(module, "Batch")
-        .def("step", &step, nb::arg("ticks"))
+        .def("step", &step_batch, nb::arg("ticks"))
         .def_prop_ro("threads", [](const Batch& batch) { return batch.runs->threads(); })
         .def_ro("simulations", &Batch::simulations);
-    module.def("batch", &make, nb::arg("model"), nb::arg("count"), nb::arg("threads"), nb::arg("seed"));
+    module.def("batch", &make_batch, nb::arg("model"), nb::arg("count"), nb::arg("threads"), nb::arg("seed"));
 }
 
 }  // namespace roboss_python

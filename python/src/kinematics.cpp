@@ -32,7 +32,8 @@ FrameAxes axes_of(bool in_tool) {
     return in_tool ? FrameAxes::kTool : FrameAxes::kWorld;
 }
 
-RobotModel make(std::shared_ptr<const Model> model, std::size_t robot, bool cut_loops, const MaybeIn& base) {
+RobotModel make_robot_model(std::shared_ptr<const Model> model, std::size_t robot, bool cut_loops,
+                            const MaybeIn& base) {
     RobotModelOptions options{.cut_loops = cut_loops};
     if (base) options.X_WR = pose(*base);
     return value_or_raise(RobotModel::create(std::move(model), RobotId(robot), options), "ArgumentError");
@@ -157,7 +158,7 @@ void bind_kinematics(nb::module_& module) {
         .def_prop_ro("cut_joints", &RobotModel::cut_joints);
     bind_links(bound);
     bind_dynamics(bound);
-    module.def("robot_model", &make, nb::arg("model"), nb::arg("robot"), nb::arg("cut_loops"),
+    module.def("robot_model", &make_robot_model, nb::arg("model"), nb::arg("robot"), nb::arg("cut_loops"),
                nb::arg("base").none());
     module.def("compose",
                [](const In& a, const In& b, const Out& out) { put_row(pose(a) * pose(b), out.data()); });

@@ -80,9 +80,9 @@ std::string change(Remote& remote, const ControlAction& action) {
     return done.value();
 }
 
-std::string add(Remote& remote, const std::string& file, const std::string& content,
-                const std::vector<std::string>& names, const std::vector<std::array<double, 7>>& poses,
-                bool on_ground) {
+std::string add_models(Remote& remote, const std::string& file, const std::string& content,
+                       const std::vector<std::string>& names, const std::vector<std::array<double, 7>>& poses,
+                       bool on_ground) {
     AddModels request{file, content, pose_at(poses.front().data()), names.front()};
     for (std::size_t i = 0; names.size() > 1 && i < names.size(); ++i)
         request.copies.push_back({names[i], pose_at(poses[i].data())});
@@ -90,7 +90,7 @@ std::string add(Remote& remote, const std::string& file, const std::string& cont
     return change(remote, request);
 }
 
-void step(const Remote& remote, Tick ticks) {
+void step_remote(const Remote& remote, Tick ticks) {
     RemoteRun& run = remote.there();
     const Result<> stepped = without_gil({remote.simulation}, [&] { return run.step(ticks, &go_on); });
     if (!stepped) raise_remote(stepped.error());
@@ -128,9 +128,9 @@ void leave(Remote& remote) {
 
 void bind_remote(nb::module_& module) {
     nb::class_<Remote>(module, "Remote")
-        .def("step", &step, nb::arg("ticks"))
+        .def("step", &step_remote, nb::arg("ticks"))
         .def("control", &control, nb::arg("words"))
-        .def("add", &add, nb::arg("file"), nb::arg("content"), nb::arg("names"), nb::arg("poses"),
+        .def("add", &add_models, nb::arg("file"), nb::arg("content"), nb::arg("names"), nb::arg("poses"),
              nb::arg("on_ground"))
         .def(
             "remove",

@@ -107,7 +107,7 @@ void set(Robots& robots, const In& values) {
     raise_if_refused(done);
 }
 
-Robots make(Simulations simulations, const std::vector<std::uint32_t>& ids) {
+Robots make_robots(Simulations simulations, const std::vector<std::uint32_t>& ids) {
     std::vector<RobotId> robots;
     for (const std::uint32_t id : ids) robots.emplace_back(id);
     auto set = std::make_shared<RobotSet>(simulations.front()->model(), std::move(robots));
@@ -157,7 +157,7 @@ void bind_robots(nb::module_& module) {
                 });
             },
             nb::arg("channel"), nb::arg("values"), nb::arg("rows"));
-    module.def("robots", &make, nb::arg("simulations"), nb::arg("ids"));
+    module.def("robots", &make_robots, nb::arg("simulations"), nb::arg("ids"));
 }
 
 }  // namespace roboss_python

@@ -64,7 +64,7 @@ nb::ndarray<nb::numpy, std::uint8_t> contacts(const std::shared_ptr<Simulation>&
     return {data, {bytes}, owner};
 }
 
-void step(const std::shared_ptr<Simulation>& simulation, Tick ticks) {
+void step_simulation(const std::shared_ptr<Simulation>& simulation, Tick ticks) {
     LocalRun& run = simulation->run();
     const auto step_part = [&](Tick part) {
         const Result<> stepped = without_gil({simulation}, [&] { return run.step(part); });
@@ -140,7 +140,7 @@ void bind_simulation(nb::module_& module) {
                 new (self) Simulation(std::move(model), std::move(run));
             },
             nb::arg("model"), nb::arg("threads"), nb::arg("seed"))
-        .def("step", &step, nb::arg("ticks"))
+        .def("step", &step_simulation, nb::arg("ticks"))
         .def_prop_ro("tick", [](Simulation& s) { return s.run().tick(); })
         .def_prop_ro("time", [](Simulation& s) { return s.run().time_s(); })
         .def_prop_ro("seed", [](Simulation& s) { return s.run().seed(); })
