@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <cstring>
 #include <type_traits>
 #include <utility>
 
@@ -349,8 +350,11 @@ std::uint64_t world_hash(std::uint64_t model_hash, std::span<const std::uint64_t
 }
 
 void encode(const RobotState& state, std::vector<std::uint8_t>& out) {
+    static_assert(std::endian::native == std::endian::little, "a word is written as it is in memory");
     Teller words([&out](std::uint64_t w) {
-        for (int i = 0; i < 8; ++i) out.push_back(static_cast<std::uint8_t>(w >> (8 * i)));
+        const std::size_t at = out.size();
+        out.resize(at + sizeof w);
+        std::memcpy(out.data() + at, &w, sizeof w);
     });
     fields(words, state);
 }
