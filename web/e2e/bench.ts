@@ -1,6 +1,6 @@
 // What the page's tests stand on: a run to look at (the mock gateway, or the real program where ROBOSS_PROGRAM names it),
 // Debian's Chromium drawing in software, and a page whose every console error is kept.
-import { type ChildProcess, spawn } from "node:child_process";
+import { spawn } from "node:child_process";
 import { existsSync, mkdtempSync, rmSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { dirname, join } from "node:path";
@@ -9,6 +9,9 @@ import { after, before, test } from "node:test";
 import { fileURLToPath } from "node:url";
 import { type Browser, chromium, type Page } from "playwright-core";
 import type { Hooks } from "../src/main";
+import { CppClient, end, PROGRAM } from "./processes";
+
+export { type CppClient, PROGRAM };
 
 declare global {
     interface Window {
@@ -18,7 +21,6 @@ declare global {
 
 const TESTS = join(dirname(fileURLToPath(import.meta.url)), "..");
 const WEB = process.env.ROBOSS_WEB ?? join(TESTS, "../dist");
-export const PROGRAM = process.env.ROBOSS_PROGRAM ?? "";
 const CHROMIUM =
     process.env.CHROMIUM ??
     ["/usr/bin/chromium", "/usr/bin/chromium-browser", "/usr/bin/google-chrome"].find((path) => existsSync(path));
@@ -31,12 +33,6 @@ export interface Run {
     /** Options that lead a member to a run of RunOptions::cluster. */
     network: string[];
     stop(signal?: NodeJS.Signals): Promise<void>;
-}
-
-function ended(child: ChildProcess): Promise<void> {
-    return new Promise((resolve) =>
-        child.exitCode !== null || child.signalCode !== null ? resolve() : child.once("exit", () => resolve()),
-    );
 }
 
 export interface RunOptions {
@@ -98,13 +94,6 @@ function clusterNetwork(): string[] {
     return ["--simulation", name];
 }
 
-async function end(child: ChildProcess, signal: NodeJS.Signals = "SIGTERM"): Promise<void> {
-    child.kill(signal);
-    const hard = setTimeout(() => child.kill("SIGKILL"), 5000);
-    await ended(child);
-    clearTimeout(hard);
-}
-
 /** Starts a run and waits until it says where its page is. */
 export async function startRun(options: RunOptions = {}): Promise<Run> {
     const folder = mkdtempSync(join(tmpdir(), "roboss-page-")),
@@ -137,48 +126,6 @@ export async function startRun(options: RunOptions = {}): Promise<Run> {
             rmSync(folder, { recursive: true, force: true });
         },
     };
-}
-
-/** What a Client in C++ (examples/watch_robot) says of a robot. */
-export interface Told {
-    time: number;
-    robot: string;
-    position: [number, number, number];
-    velocity: [number, number, number];
-    joints: Record<string, { position: number; velocity: number; mode: string; target: number }[]>;
-}
-
-/** A Client in C++ that joined the run: what it said last of each robot. */
-export class CppClient {
-    readonly told = new Map<string, Told>();
-    private said = "";
-    private readonly child: ChildProcess;
-
-    constructor(run: Run, robots: string[]) {
-        const library = process.env.ROBOSS_WATCH_ROBOT ?? "",
-            env = { ...process.env, ROBOSS_WATCH: robots.join(",") };
-        this.child = spawn(PROGRAM, ["client", library, "--quiet", ...run.network], { env });
-        this.child.stdout?.on("data", (text: Buffer) => this.hear(text.toString()));
-    }
-
-    private hear(text: string): void {
-        const lines = (this.said + text).split("\n");
-        this.said = lines.pop() ?? "";
-        for (const line of lines.filter((one) => one.startsWith("{"))) {
-            const told = JSON.parse(line) as Told;
-            this.told.set(told.robot, told);
-        }
-    }
-
-    of(robot: string): Told {
-        const told = this.told.get(robot);
-        if (told === undefined) throw new Error(`the Client says nothing of ${robot}`);
-        return told;
-    }
-
-    stop(): Promise<void> {
-        return end(this.child);
-    }
 }
 
 export function startBrowser(): Promise<Browser> {
@@ -310,7 +257,7 @@ export class Bench {
     private async open(): Promise<void> {
         this.browser = await startBrowser();
         this.run = await startRun(this.options);
-        if (this.options.told !== undefined) this.client = new CppClient(this.run, this.options.told);
+        if (this.options.told !== undefined) this.client = new CppClient(this.run.network, this.options.told);
         ({ page: this.page, errors: this.errors } = await openPage(this.browser, this.run, this.options.query));
     }
 }
