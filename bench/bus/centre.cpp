@@ -55,7 +55,7 @@ class Centre {
         if (question == "round-trip") return 1e-3 * timed(1, bytes);
         if (question == "barrier") return 1e-6 * timed(members_, bytes);
         if (question == "vanished") return vanished();
-        throw std::runtime_error("nobody asks '" + question + "'");
+        throw std::runtime_error("unknown question '" + question + "'");
     }
 
   private:
@@ -88,7 +88,8 @@ class Centre {
     double vanished() {
         const std::int64_t end_ms = bus_->now_ms() + kPatience_ms;
         while (bus_->take_vanished(kControllerAddress).empty()) {
-            if (bus_->now_ms() > end_ms) throw std::runtime_error("nobody vanished");
+            if (bus_->now_ms() > end_ms)
+                throw std::runtime_error("the loss of a killed member is not reported");
             bus_->wait(kTurn_ms);
             bus_->drain(kControllerAddress, inbox_);
         }

@@ -28,7 +28,7 @@ class Crew {
     struct Idle {
         double centre_ms_per_s = 0, member_ms_per_s = 0;
     };
-    /// CPU time of the processes while nobody sends anything.
+    /// CPU time of the processes while no messages are sent.
     Idle idle(double seconds) const;
     /// Kills the last member's process, until the centre's Bus reports that it has vanished.
     double kill_seen_ms();

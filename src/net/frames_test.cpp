@@ -4,18 +4,13 @@
 
 #include <gtest/gtest.h>
 
-#include <cstdlib>
+#include <support/fuzz_rounds.h>
 #include <random>
 
 #include "wire/codec.h"
 
 namespace roboss {
 namespace {
-
-std::size_t rounds() {
-    const char* wanted = std::getenv("ROBOSS_FUZZ_ROUNDS");
-    return wanted == nullptr ? 3'000 : std::strtoull(wanted, nullptr, 10);
-}
 
 std::vector<std::uint8_t> noise(std::mt19937_64& random, std::size_t most) {
     std::vector<std::uint8_t> bytes(random() % (most + 1));
@@ -91,9 +86,10 @@ TEST(Frames, ComeOutAsTheyWentInHoweverTheStreamIsCut) {
 }
 
 TEST(Frames, AnyBytesAreTakenOrTheStreamIsBroken) {
+    const std::size_t rounds = test::fuzz_rounds(3'000);
     std::mt19937_64 random(11);
     std::size_t broken = 0, whole = 0;
-    for (std::size_t round = 0; round < rounds(); ++round) {
+    for (std::size_t round = 0; round < rounds; ++round) {
         std::vector<std::uint8_t> stream;
         for (std::uint64_t i = random() % 4; i > 0; --i) {
             const FrameKind kind = kKinds[random() % std::size(kKinds)];
@@ -108,8 +104,8 @@ TEST(Frames, AnyBytesAreTakenOrTheStreamIsBroken) {
         (reader.broken().empty() ? whole : broken) += 1;
         EXPECT_LE(reader.buffer().size(), stream.size());
     }
-    EXPECT_GT(broken, rounds() / 20);
-    EXPECT_GT(whole, rounds() / 20);
+    EXPECT_GT(broken, rounds / 20);
+    EXPECT_GT(whole, rounds / 20);
 }
 
 TEST(Frames, ContentsSurviveTheirBytes) {

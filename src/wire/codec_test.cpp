@@ -3,8 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <support/fuzz_rounds.h>
 #include <algorithm>
-#include <cstdlib>
 #include <iterator>
 #include <limits>
 #include <random>
@@ -183,18 +183,13 @@ TEST(Codec, RefusesEveryTruncation) {
     }
 }
 
-/// Of a kind of message; more of them by ROBOSS_FUZZ_ROUNDS (docs/testing.md).
-std::size_t rounds() {
-    const char* wanted = std::getenv("ROBOSS_FUZZ_ROUNDS");
-    return wanted == nullptr ? 3'000 : std::strtoull(wanted, nullptr, 10);
-}
-
 TEST(Codec, RefusesOrUnderstandsEveryMutation) {
+    const std::size_t rounds = test::fuzz_rounds(3'000);  // of each kind of message
     std::mt19937_64 random(20261121);
     int refused = 0, understood = 0;
     for (const Message& message : one_of_each()) {
         const std::vector<std::uint8_t> good = encode(envelope_of(message));
-        for (std::size_t i = 0; i < rounds(); ++i) {
+        for (std::size_t i = 0; i < rounds; ++i) {
             std::vector<std::uint8_t> bytes = good;
             for (std::uint64_t k = 0; k < 1 + random() % 3; ++k)
                 bytes[random() % bytes.size()] = static_cast<std::uint8_t>(random());

@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <array>
 #include <csignal>
-#include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <random>
@@ -100,6 +99,11 @@ class Changes {
 
 }  // namespace
 
+std::string contents(const std::filesystem::path& file) {
+    std::ifstream in(file, std::ios::binary);
+    return {std::istreambuf_iterator<char>(in), {}};
+}
+
 std::string changed(const std::string& good, std::size_t seed) {
     return Changes(good, seed).take();
 }
@@ -121,10 +125,8 @@ void expect_total(const Decoder& decoder, const std::string& cases) {
     for (std::size_t i = 0; i < decoder.good.size(); ++i)
         EXPECT_TRUE(read(decoder.good[i], i, "good-" + std::to_string(i)));
     std::error_code none;
-    for (const auto& file : std::filesystem::directory_iterator(cases + "/" + decoder.name, none)) {
-        std::ifstream in(file.path(), std::ios::binary);
-        (void)read({std::istreambuf_iterator<char>(in), {}}, 0, file.path().filename());
-    }
+    for (const auto& file : std::filesystem::directory_iterator(cases + "/" + decoder.name, none))
+        (void)read(contents(file.path()), 0, file.path().filename());
     std::size_t taken = 0;
     const std::size_t rounds = fuzz_rounds(decoder.rounds);
     for (std::size_t round = 0; round < rounds && !::testing::Test::HasFailure(); ++round) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <filesystem>
 #include <functional>
 #include <string>
 #include <vector>
@@ -17,6 +18,9 @@ struct Decoder {
     std::function<bool(const std::string& bytes, std::size_t which)>
         read;  // `which`: of the good ones it comes from
 };
+
+/// The bytes of a file.
+std::string contents(const std::filesystem::path& file);
 
 /// One to three changes: bits, bytes, numbers and words, pieces that are cut, repeated or swapped.
 std::string changed(const std::string& good, std::size_t seed);

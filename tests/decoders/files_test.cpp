@@ -1,5 +1,5 @@
-// Files of others, changed at random: worlds (SDFormat, URDF, MJCF), meshes, pictures and scenes are read, or
-// refused with a reason. The decoders of messages, Models and journals are tested the same way in their
+// Files of others, changed at random: worlds (SDFormat, URDF, MJCF), meshes and pictures are read, or refused
+// with a reason. The decoders of messages, Models, scenes and journals are tested the same way in their
 // layers.
 #include <gtest/gtest.h>
 
@@ -7,7 +7,6 @@
 #include <csignal>
 #include <cstdlib>
 #include <filesystem>
-#include <fstream>
 
 #include <support/folder.h>
 
@@ -26,11 +25,6 @@ namespace {
 namespace fs = std::filesystem;
 
 const std::string kSource = ROBOSS_SOURCE, kCases = kSource + "/tests/decoders/cases";
-
-std::string contents(const fs::path& file) {
-    std::ifstream in(file, std::ios::binary);
-    return {std::istreambuf_iterator<char>(in), {}};
-}
 
 /// Small files of the tree, in the order of their names.
 std::vector<fs::path> small_files(const std::vector<std::string>& folders,

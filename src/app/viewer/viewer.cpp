@@ -10,7 +10,6 @@
 
 #include "app/output/say.h"
 #include "app/viewer/page_users.h"
-#include "gateway/access.h"
 #include "net/key_folder.h"
 #include "net/meeting_place.h"
 

@@ -1,5 +1,5 @@
-// Whether the card of first steps is shown: at the first visit of this browser until it is dismissed, or when the page's
-// address asks for it (`?hints`).
+// The card of first steps is shown at the first visit of this browser until it is dismissed, or when the page's address
+// asks for it (`?hints`).
 import type { Address } from "./address";
 import { keep, kept } from "./kept";
 

@@ -29,8 +29,8 @@ function skyColour(palette: ScenePalette): (up: number) => Colour {
 }
 
 /**
- * What a surface of this roughness reflects that faces a direction and is seen from there: the mean of the sky over the
- * GGX lobe. A ring of the lobe has the same angle to the direction; rings are spread as visible normals are (Heitz 2018).
+ * Returns the light that a surface of this roughness reflects, seen along its normal: the mean of the sky over the GGX
+ * lobe. A ring of the lobe has the same angle to the direction; rings are spread as visible normals are (Heitz 2018).
  */
 export function reflected(palette: ScenePalette, roughness: number): (up: number) => Colour {
     const sky = skyColour(palette);
