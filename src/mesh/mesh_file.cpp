@@ -344,6 +344,9 @@ Result<const aiScene*> open_scene(Assimp::Importer& importer, const std::string&
     if (extension == ".ply")
         if (const Result<> good = check_ply(text_of(path)); !good) return good.error();
     if (importer.ReadFile(path, 0) == nullptr) return unreadable(importer.GetErrorString());
+    // assimp from 5.3 on turns the root by the axes that the file names; it has no other transformation.
+    if (extension == ".fbx" && importer.GetScene()->mRootNode != nullptr)
+        importer.GetScene()->mRootNode->mTransformation = aiMatrix4x4();
     if (extension == ".obj" && has_its_parts(*importer.GetScene()))
         for (unsigned m = 0; m < importer.GetScene()->mNumMeshes; ++m)
             split_quadrangles(*importer.GetScene()->mMeshes[m]);

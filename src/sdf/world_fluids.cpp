@@ -148,10 +148,10 @@ bool is_enabled(const std::vector<std::string>& enabled, const std::string& name
            });
 }
 
-std::vector<char> floating_links(const World& world, const ModelInstance& instance) {
-    std::vector<char> floats;
+std::vector<bool> floating_links(const World& world, const ModelInstance& instance) {
+    std::vector<bool> floats;
     for (const LinkSpec& link : world.prototypes[instance.prototype].links)
-        floats.push_back(is_enabled(world.buoyancy->enabled, instance.name + "::" + link.name) ? 1 : 0);
+        floats.push_back(is_enabled(world.buoyancy->enabled, instance.name + "::" + link.name));
     return floats;
 }
 
@@ -172,10 +172,10 @@ bool convert_fluid_plugin(const Element& plugin, const Import& import, World& ou
 
 void mark_buoyant(World& world) {
     if (!world.buoyancy) return;
-    std::map<std::size_t, std::map<std::vector<char>, std::size_t>> known;  // prototypes by links that float
+    std::map<std::size_t, std::map<std::vector<bool>, std::size_t>> known;  // prototypes by links that float
     for (ModelInstance& instance : world.instances) {
         if (world.prototypes[instance.prototype].is_static) continue;
-        const std::vector<char> floats = floating_links(world, instance);
+        const std::vector<bool> floats = floating_links(world, instance);
         auto& variants = known[instance.prototype];
         const auto [found, is_new] = variants.try_emplace(floats, instance.prototype);
         if (is_new && variants.size() > 1) {
@@ -186,7 +186,7 @@ void mark_buoyant(World& world) {
         instance.prototype = found->second;
         if (!is_new) continue;
         std::vector<LinkSpec>& links = world.prototypes[instance.prototype].links;
-        for (std::size_t l = 0; l < links.size(); ++l) links[l].buoyant = floats[l] != 0;
+        for (std::size_t l = 0; l < links.size(); ++l) links[l].buoyant = floats[l];
     }
 }
 
