@@ -15,5 +15,6 @@ void bind_remote(nanobind::module_& module);
 void bind_camera(nanobind::module_& module);
 void bind_view(nanobind::module_& module);
 void bind_kinematics(nanobind::module_& module);
+void bind_ros2(nanobind::module_& module);
 
 }  // namespace roboss_python

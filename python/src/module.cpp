@@ -14,4 +14,5 @@ NB_MODULE(_core, module) {
     roboss_python::bind_camera(module);
     roboss_python::bind_journal(module);
     roboss_python::bind_kinematics(module);
+    roboss_python::bind_ros2(module);
 }

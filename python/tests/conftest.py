@@ -2,9 +2,11 @@
 import contextlib
 import io
 import json
+import os
 import re
 import subprocess
 import sys
+import time
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -15,6 +17,7 @@ import roboss
 from roboss.analysis.command import main as analysis
 
 REPOSITORY = Path(__file__).resolve().parents[2]
+ROBOSS = REPOSITORY / "build" / "release" / "bin" / "roboss"
 #: Pages whose Python runs as it stands, one block after the other.
 PAGES = ["README.md", "docs/python.md", "docs/learning.md", "docs/older-systems.md"]
 BLOCK = re.compile(r"^```python\n(.*?)^```", re.DOTALL | re.MULTILINE)
@@ -74,6 +77,32 @@ def clean_python(tmp_path_factory):
     python = folder / "bin" / "python"
     subprocess.run([python, "-m", "pip", "install", "--quiet", "--disable-pip-version-check", wheel], check=True)
     return python
+
+
+@pytest.fixture(scope="session")
+def branched(tmp_path_factory):
+    """A journal of 1 s, 1000 ticks; at 0.4 s a car went, at 0.7 s the run was taken back to 0.5 s."""
+    folder = tmp_path_factory.mktemp("branched")
+    path, name = folder / "branched.journal", f"branched_{os.getpid()}"
+    command = [ROBOSS, "run", REPOSITORY / "worlds/crossroads.sdf", "--headless", "--quiet", "--paused", "--simulation", name,
+               "--journal", path]
+    with subprocess.Popen(list(map(str, command)), stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL) as process:
+        def ask(*words):
+            done = subprocess.run([ROBOSS, "control", "--simulation", name, "--patience", "30", "--json", *map(str, words)],
+                                  capture_output=True, text=True, check=True)
+            return json.loads(done.stdout)
+
+        def to(tick):
+            ask("step", tick - ask("status")["tick"])
+            while ask("status")["tick"] < tick:
+                time.sleep(0.01)
+        to(200)
+        ask("remove", "car_3")
+        to(350)
+        ask("rewind", 0.5)
+        to(500)
+        ask("quit")
+    return path
 
 
 class OrderFile:

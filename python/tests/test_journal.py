@@ -1,17 +1,14 @@
 """Recordings of `roboss run`, at any time and to the last bit."""
 import json
-import os
 import subprocess
-import time
 
 import numpy as np
 import pytest
 
 import roboss
-from conftest import REPOSITORY
+from conftest import REPOSITORY, ROBOSS
 from roboss.outputs import check_output
 
-ROBOSS = REPOSITORY / "build" / "release" / "bin" / "roboss"
 WORLD = [REPOSITORY / "worlds/crossroads.sdf", "--orders", REPOSITORY / "worlds/crossroads.jsonl"]
 
 
@@ -68,32 +65,6 @@ def test_errors_name_file_and_time(recorded, tmp_path):
     for name in ("no.journal", "missing.journal"):
         with pytest.raises(roboss.JournalError, match=name):
             roboss.Journal(tmp_path / name)
-
-
-@pytest.fixture(scope="module")
-def branched(tmp_path_factory):
-    """A journal of 1 s, 1000 ticks; at 0.4 s a car went, at 0.7 s the run was taken back to 0.5 s."""
-    folder = tmp_path_factory.mktemp("branched")
-    path, name = folder / "branched.journal", f"branched_{os.getpid()}"
-    command = [ROBOSS, "run", REPOSITORY / "worlds/crossroads.sdf", "--headless", "--quiet", "--paused", "--simulation", name,
-               "--journal", path]
-    with subprocess.Popen(list(map(str, command)), stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL) as process:
-        def ask(*words):
-            done = subprocess.run([ROBOSS, "control", "--simulation", name, "--patience", "30", "--json", *map(str, words)],
-                                  capture_output=True, text=True, check=True)
-            return json.loads(done.stdout)
-
-        def to(tick):
-            ask("step", tick - ask("status")["tick"])
-            while ask("status")["tick"] < tick:
-                time.sleep(0.01)
-        to(200)
-        ask("remove", "car_3")
-        to(350)
-        ask("rewind", 0.5)
-        to(500)
-        ask("quit")
-    return path
 
 
 def test_goes_through_branches_with_the_robots_of_then(branched):

@@ -12,7 +12,8 @@ package (pyarrow, mcap, matplotlib, scipy).
 from .arm import Condition, analyse_arm
 from .recorder import Recorded, record, record_file
 from .recording import Column, Recording, read, write
+from .ros2_recorder import record_ros2
 from .variables import Variables
 
 __all__ = ["Column", "Condition", "Recorded", "Recording", "Variables", "analyse_arm", "read", "record", "record_file",
-           "write"]
+           "record_ros2", "write"]

@@ -9,8 +9,9 @@ from typing import Any
 
 from ..errors import ArgumentError
 from .command import Parser, Progress, check_file
-from .recorder import check_order, is_journal, journal_of_run, opened, record_file, ways
+from .recorder import Recorded, check_order, is_journal, journal_of_run, opened, record_file, ways
 from .recording import SUFFIXES, existing
+from .ros2_recorder import record_ros2, topics_of
 from .variables import Variables
 
 _EXAMPLES = """Variables are named ROBOT.WHAT; * ? [...] match many, up to the next dot, and ** beyond dots. --list shows all that a source has, with units.
@@ -28,6 +29,9 @@ Examples:
   roboss record worlds/crossroads.sdf '*.pose' --until 10 --orders worlds/crossroads.jsonl -o run.mcap
   roboss record run.journal 'arm.*.effort' --every 0.001 -o efforts.parquet        afterwards, from a journal
   roboss plot run.parquet car_3.speed
+  roboss record worlds/crossroads.sdf --ros2 --until 10 -o run.mcap         topics of ROS 2, for Foxglove, Lichtblick, rosbags
+  roboss record run.journal --ros2 '/car_3/**' '/tf*' -o bag                a rosbag2: ros2 bag play bag
+  roboss record run.journal --ros2 --list                                   the topics that there are
 
 A world is run here; with --orders or --client it is first run by `roboss run` into a journal. A journal is replayed
 to the last bit, so its recording is that of the run. MCAP opens in Foxglove, Parquet in pandas, Polars, DuckDB, CSV in every spreadsheet."""
@@ -39,6 +43,8 @@ def parser() -> Parser:
     result.add_argument("source", metavar="SOURCE", help="a world (SDFormat, URDF, MJCF) or a journal")
     result.add_argument("variables", nargs="*", metavar="VARIABLE", help="names or patterns (default: *.pose)")
     result.add_argument("-o", "--output", metavar="FILE", help="ends in .parquet, .mcap or .csv (numbers only)")
+    result.add_argument("--ros2", action="store_true", help="record the robots' topics of ROS 2, with its messages: VARIABLE is a "
+                        "topic or a pattern (default: all), FILE ends in .mcap or is a new folder, a rosbag2 (docs/ros2.md)")
     result.add_argument("--list", action="store_true", help="show the variables that there are, and record nothing")
     result.add_argument("--every", type=float, default=0.01, metavar="S", help="time between two samples (default: 0.01)")
     result.add_argument("--from", type=float, dest="start", metavar="S", help="time of the first sample (default: the first)")
@@ -59,9 +65,8 @@ def add_common(to: Parser) -> None:
 def run(options: Any) -> Any:
     if not options.every > 0:
         raise ArgumentError(f"a time of {options.every} s between samples", "give one above 0", "bad-value")
-    if not options.list and (options.output is None or Path(options.output).suffix not in SUFFIXES):
-        raise ArgumentError("no file to write" if options.output is None else f"a file named '{options.output}'",
-                            "give -o FILE.parquet, FILE.mcap or FILE.csv", "unknown-format")
+    if not options.list:
+        _check_name(options)
     existing(options.source)
     if not options.list:
         check_file(options.output, reads=[options.source, options.orders, *options.client])
@@ -79,10 +84,13 @@ def run(options: Any) -> Any:
             source = journal_of_run(source, options.until, folder, orders=options.orders, clients=options.client)
         if options.list:
             return _list(options)
-        done = record_file(source, options.output, options.variables or ["*.pose"], until=options.until, every=options.every,
-                           start=options.start, branch=options.branch, name=options.source,
-                           progress=lambda now, end: progress(f"{now:.2f} of {end:.2f} s"))
+        record, default = (record_ros2, None) if options.ros2 else (record_file, ["*.pose"])
+        done = record(source, options.output, options.variables or default, until=options.until, every=options.every,
+                      start=options.start, branch=options.branch, name=options.source,
+                      progress=lambda now, end: progress(f"{now:.2f} of {end:.2f} s"))
     progress.note_if(ways(options.source, options.branch))
+    if options.ros2:
+        return _told_of_topics(options, done, progress, time.monotonic() - begin)
     if done.left_out:
         progress.note(f"without {', '.join(done.left_out[:8])}{' ...' if len(done.left_out) > 8 else ''}: with {options.every:g} s "
                       "between samples messages would be missing (--every)")
@@ -95,8 +103,38 @@ def run(options: Any) -> Any:
     return result
 
 
+def _check_name(options: Any) -> None:
+    """Refuses a name that says no format."""
+    suffixes = ("", ".mcap") if options.ros2 else SUFFIXES
+    if options.output is None or Path(options.output).suffix not in suffixes:
+        raise ArgumentError("no file to write" if options.output is None else f"a file named '{options.output}'",
+                            "give -o FILE.mcap, or -o FOLDER for a rosbag2" if options.ros2 else
+                            "give -o FILE.parquet, FILE.mcap or FILE.csv", "unknown-format")
+
+
+def _told_of_topics(options: Any, done: Recorded, progress: Progress, took: float) -> Any:
+    if done.left_out:
+        progress.note(f"without {', '.join(done.left_out[:8])}{' ...' if len(done.left_out) > 8 else ''}: these sensors have no "
+                      "message in ROS 2 here")
+    if not options.json:
+        print(f"{options.output}: {len(done.variables)} topics, {done.messages} messages from {done.first:g} to {done.last:g} s")
+    return {"file": options.output, "topics": done.variables, "left_out": list(done.left_out), "messages": done.messages,
+            "first_s": done.first, "last_s": done.last, "took_s": round(took, 3)}
+
+
+def _list_topics(options: Any, until: Any) -> Any:
+    topics = topics_of(options.source, options.start, until, options.branch)
+    if not options.json:
+        width = max(len(topic.name) for topic in topics)
+        for topic in topics:
+            print(f"{topic.name:{width}}  {topic.type}")
+    return [{"topic": topic.name, "type": topic.type, "hash": topic.hash, "latched": topic.latched} for topic in topics]
+
+
 def _list(options: Any) -> Any:
     until = options.until if options.until is not None else None if is_journal(options.source) else options.start or 0.0
+    if options.ros2:
+        return _list_topics(options, until)
     run_of, _, _ = opened(options.source, options.start, until, options.branch)
     variables = Variables(run_of, options.variables or None, messages=True)
     found: dict[str, list] = {}

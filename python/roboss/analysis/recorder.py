@@ -56,7 +56,7 @@ def record(source: Source, patterns: Union[str, Iterable[str], None] = None, *, 
     run, last, name = opened(source, start, until, branch)
     variables = variables_of(run, last, patterns)
     times, rows = [], []
-    for sim in _samples(run, last, every):
+    for sim in samples(run, last, every):
         times.append(sim.time)
         rows.append(variables.read())
         if progress:
@@ -73,7 +73,9 @@ class Recorded:
         columns: number of columns of numbers.
         samples: number of samples.
         first, last: their times, s.
-        left_out: names of messages that match a pattern, but need samples more often.
+        left_out: names of messages that match a pattern, but need samples more often; of record_ros2() of sensors without
+            a message in ROS 2.
+        messages: number of messages of record_ros2().
     """
 
     variables: list[str]
@@ -82,6 +84,7 @@ class Recorded:
     first: float = 0.0
     last: float = 0.0
     left_out: Sequence[str] = ()
+    messages: int = 0
 
 
 def record_file(source: Source, path: Union[str, os.PathLike], patterns: Union[str, Iterable[str], None] = None, *,
@@ -110,7 +113,7 @@ def record_file(source: Source, path: Union[str, os.PathLike], patterns: Union[s
     names = [*dict.fromkeys(c.variable for c in variables.columns), *(m.name for m in variables.messages.variables)]
     done = Recorded(names, len(variables.columns), first=run.time, left_out=tuple(variables.left_out))
     with writer_of(path, variables.columns, _facts(run, name or ending, variables), variables.messages.variables) as writer:
-        for sim in _samples(run, last, every):
+        for sim in samples(run, last, every):
             writer.add(sim.time, variables.read(), variables.messages.read())
             done.samples, done.last = done.samples + 1, sim.time
             if progress:
@@ -121,10 +124,15 @@ def record_file(source: Source, path: Union[str, os.PathLike], patterns: Union[s
 def variables_of(run: Run, last: float, patterns: Union[str, Iterable[str], None], messages: bool = False,
                  every: float = 0.0) -> Variables:
     """Variables of the run up to a time, s, also of robots that come only later in a recording."""
-    later = run._later(last) if isinstance(run, _Replay) else []
+    later = later_runs(run, last)
     if not later:
         return Variables(run, patterns, messages, every)
     return ChangingVariables(run, later, patterns, messages, every)
+
+
+def later_runs(run: Run, last: float) -> list[Run]:
+    """A run of each world that a recording comes to have up to a time, s, as robots come and go; empty: it keeps its own."""
+    return run._later(last) if isinstance(run, _Replay) else []
 
 
 def ways(source: Source, branch: Optional[int] = None) -> str:
@@ -240,7 +248,7 @@ def check_order(start: Optional[float], until: Optional[float]) -> None:
         raise ArgumentError(f"times from {start:g} to {until:g} s", "let them end after they start (--from, --until)", "bad-value")
 
 
-def _samples(run: Run, last: float, every: float) -> Iterator[Run]:
+def samples(run: Run, last: float, every: float) -> Iterator[Run]:
     """The run at each time of a sample, until `last`, s."""
     ticks = _ticks(run, every)
     yield run

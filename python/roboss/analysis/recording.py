@@ -120,10 +120,19 @@ def matches(pattern: str, column: Column) -> bool:
     return found(column.variable) is not None or found(column.name) is not None
 
 
+def matches_path(pattern: str, name: str) -> bool:
+    """Whether the pattern names a topic. `*` and `?` stop at slashes, `**` does not.
+
+    >>> [matches_path(pattern, "/car_3/front/scan") for pattern in ("/car_*/*", "/car_3/**", "**/scan", "/car_3/front/s?an")]
+    [False, True, True, True]
+    """
+    return _expression(pattern, "/")(name) is not None
+
+
 @functools.cache
-def _expression(pattern: str) -> Callable[[str], Any]:
+def _expression(pattern: str, separator: str = ".") -> Callable[[str], Any]:
     """The pattern as a regular expression that is matched in full."""
-    words = {"**": ".*", "*": "[^.]*", "?": "[^.]"}
+    words = {"**": ".*", "*": f"[^{separator}]*", "?": f"[^{separator}]"}
     parts = re.split(r"(\*\*|\*|\?|\[!?[^]]+\])", pattern)
     text = "".join(words.get(part) or (part.replace("[!", "[^") if part.startswith("[") else re.escape(part)) for part in parts)
     return re.compile(text).fullmatch

@@ -1,0 +1,95 @@
+// Bytes of messages: as an independent implementation writes them, back again, and what damaged ones do.
+#include "ros2/cdr.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "ros2/messages/sensor_messages.h"
+
+namespace roboss::ros2 {
+namespace {
+
+std::string hex(const std::string& bytes) {
+    std::string text;
+    for (const char c : bytes) {
+        text += "0123456789abcdef"[static_cast<unsigned char>(c) >> 4];
+        text += "0123456789abcdef"[static_cast<unsigned char>(c) & 15];
+    }
+    return text;
+}
+
+JointStateMessage joints() {
+    JointStateMessage message;
+    message.header = {{1, 500}, "a"};
+    message.name = {"left", "right"}, message.position = {1, -2}, message.velocity = {0.5},
+    message.effort = {};
+    return message;
+}
+
+// The bytes are those of rosbags 0.11.9 (PyPI): python/tests/test_ros2.py compares all types with it.
+TEST(Cdr, BytesAreAlignedAndLittleEndian) {
+    EXPECT_EQ(hex(to_cdr(joints())),
+              "00010000"
+              "01000000f4010000"  // stamp
+              "0200000061000000"  // "a", then two bytes to the next multiple of 4
+              "02000000050000006c65667400000000060000007269676874000000"
+              "02000000"  // positions, aligned to 8
+              "000000000000f03f00000000000000c0"
+              "0100000000000000000000000000e03f"
+              "00000000");
+}
+
+TEST(Cdr, WhatIsWrittenIsRead) {
+    const Result<JointStateMessage> read = from_cdr<JointStateMessage>(to_cdr(joints()));
+    ASSERT_TRUE(read);
+    EXPECT_EQ(read.value().name, joints().name);
+    EXPECT_EQ(read.value().position, joints().position);
+    EXPECT_EQ(read.value().velocity, joints().velocity);
+    EXPECT_EQ(read.value().header.frame_id, "a");
+    EXPECT_EQ(read.value().header.stamp.nanosec, 500u);
+}
+
+TEST(Cdr, BigEndianIsReadToo) {
+    std::string bytes("\0\0\0\0\x3f\xf0\0\0\0\0\0\0\xc0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0", 28);
+    const Result<Vector3> read = from_cdr<Vector3>(bytes);
+    ASSERT_TRUE(read);
+    EXPECT_EQ(read.value().x, 1);
+    EXPECT_EQ(read.value().y, -2);
+    EXPECT_EQ(read.value().z, 0);
+}
+
+TEST(Cdr, MessagesThatEndTooSoonAreRefused) {
+    const std::string bytes = to_cdr(joints());
+    for (std::size_t size = 0; size < bytes.size(); ++size) {
+        const Result<JointStateMessage> read = from_cdr<JointStateMessage>(bytes.substr(0, size));
+        ASSERT_FALSE(read) << size;
+        EXPECT_EQ(read.error().code, "bad-message");
+    }
+}
+
+TEST(Cdr, LengthsBeyondTheEndAreRefusedBeforeMemoryIsTaken) {
+    std::string bytes = to_cdr(ImageMessage{});
+    bytes.replace(bytes.size() - 4, 4, "\xff\xff\xff\xff");
+    const Result<ImageMessage> read = from_cdr<ImageMessage>(bytes);
+    ASSERT_FALSE(read);
+    EXPECT_NE(read.error().text().find("'data'"), std::string::npos) << read.error().text();
+}
+
+TEST(Cdr, ChangedBytesNeverCrash) {
+    std::mt19937 random(7);
+    TFMessage frames;
+    frames.transforms = {{{{1, 2}, "world"}, "car", {}}, {{{1, 2}, "car"}, "wheel", {}}};
+    const std::string bytes = to_cdr(frames);
+    for (int round = 0; round < 20'000; ++round) {
+        std::string changed = bytes.substr(0, 1 + random() % bytes.size());
+        for (int i = 0; i < 3; ++i) changed[random() % changed.size()] = static_cast<char>(random());
+        const Result<TFMessage> read = from_cdr<TFMessage>(changed);
+        if (read) {
+            EXPECT_LE(read.value().transforms.size(), bytes.size());
+        }
+    }
+}
+
+}  // namespace
+}  // namespace roboss::ros2

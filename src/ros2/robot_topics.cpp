@@ -1,0 +1,299 @@
+// See robot_topics.h.
+#include "ros2/robot_topics.h"
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <map>
+
+#include "client/held_samples.h"
+#include "physics/dynamics/kinematics.h"
+#include "physics/dynamics/motor_effort.h"
+#include "ros2/cdr.h"
+#include "ros2/sensor_messages.h"
+#include "ros2/type_description.h"
+
+namespace roboss::ros2 {
+
+namespace {
+
+constexpr std::size_t kClock = 0, kTf = 1, kTfStatic = 2;  // topics of the world
+
+template <ros2::Message M>
+const MessageType& type_of() {
+    static const MessageType type = [] {
+        const TypeDescription described = describe<M>();
+        return MessageType{described.name, type_hash(described), definition_text(described)};
+    }();
+    return type;
+}
+
+/// The name with what ROS 2 allows in names: letters, digits and _, no digit in front; "::" becomes "/".
+std::string ros_name(const std::string& name) {
+    std::string result;
+    for (std::size_t i = 0; i < name.size(); ++i) {
+        const bool is_scope = name.compare(i, 2, "::") == 0;
+        if (is_scope) ++i;
+        const bool begins = result.empty() || result.back() == '/';
+        const char c = is_scope ? '/' : std::isalnum(static_cast<unsigned char>(name[i])) ? name[i] : '_';
+        if (c == '/' && begins) continue;
+        if (begins && std::isdigit(static_cast<unsigned char>(c))) result += '_';
+        result += c;
+    }
+    while (!result.empty() && result.back() == '/') result.pop_back();
+    return result.empty() ? "_" : result;
+}
+
+/// The name, or with _2, _3 ... the first that is not taken; takes it.
+std::string unique(std::string name, std::set<std::string>& taken) {
+    std::string result = name;
+    for (int number = 2; !taken.insert(result).second; ++number) result = name + "_" + std::to_string(number);
+    return result;
+}
+
+Time time_of(const Model& model, Tick tick) {
+    const double seconds = static_cast<double>(tick) * model.dt_s;
+    auto sec = static_cast<std::int32_t>(std::floor(seconds));
+    auto nanosec = static_cast<std::int64_t>(std::llround((seconds - sec) * 1e9));
+    if (nanosec >= 1'000'000'000) ++sec, nanosec -= 1'000'000'000;
+    return {sec, static_cast<std::uint32_t>(nanosec)};
+}
+
+TransformStamped transform(const Time& stamp, std::string parent, std::string child, const Transform& X) {
+    const Pose pose = to_pose(X);
+    return {{stamp, std::move(parent)},
+            std::move(child),
+            {{pose.p.x, pose.p.y, pose.p.z}, sensor_messages::quaternion(pose.q)}};
+}
+
+/// Calls out(suffix, message) for each topic of the sensor, with an empty message.
+template <class Out>
+void with_topics(const Model& model, const SensorInfo& info, Out&& out) {
+    const SensorPlace place{model, info, "", "", "", "", {}};
+    std::visit(
+        [&]<class Spec>(const Spec& spec) {
+            if constexpr (requires { typename Spec::Reading; })
+                publish(spec, typename Spec::Reading{}, place, out);
+        },
+        info.spec.parameters);
+}
+
+/// A camera's optical frame in the frame of the sensor: z ahead, x right, y down.
+Transform optical(const CameraOptics& optics) {
+    const Transform ahead{to_matrix(Quat{0.5, -0.5, 0.5, -0.5}), {}};  // w x y z
+    return to_transform(optics.X_SC) * ahead;
+}
+
+const CameraOptics* optics_of(const SensorSpec& sensor) {
+    const CameraOptics* optics = nullptr;
+    std::visit(
+        [&](const auto& spec) {
+            if constexpr (requires { spec.optics; }) optics = &spec.optics;
+        },
+        sensor.parameters);
+    return optics;
+}
+
+}  // namespace
+
+/// A sensor with messages.
+struct RobotTopics::Source {
+    RobotId robot;
+    std::size_t sensor = 0;
+    std::size_t first = 0, count = 0;  // its topics
+    std::string frame, optical_frame, odometry_frame;
+    Transform X_WO;  // of an odometry: its frame in the world
+};
+
+/// The names of a robot.
+struct RobotTopics::RobotPart {
+    std::vector<std::string> frames;  // by LinkId; the first is the base
+    std::vector<JointId> joints;      // of one axis, that move
+    std::size_t joint_states = 0;     // its topic; 0: none
+};
+
+RobotTopics::~RobotTopics() = default;
+RobotTopics::RobotTopics(RobotTopics&&) noexcept = default;
+RobotTopics& RobotTopics::operator=(RobotTopics&&) noexcept = default;
+
+RobotTopics::RobotTopics(std::shared_ptr<const Model> model) : model_(std::move(model)) {
+    topics_ = {{"/clock", &type_of<Clock>(), false, {}},
+               {"/tf", &type_of<TFMessage>(), false, {}},
+               {"/tf_static", &type_of<TFMessage>(), true, {}}};
+    std::set<std::string> names{"clock", "tf", "tf_static"}, taken;
+    for (std::size_t r = 0; r < model_->robots.size(); ++r)
+        add_robot(RobotId(r), unique(ros_name(model_->robots[r].name), names), taken);
+    wanted_.assign(topics_.size(), true);
+}
+
+void RobotTopics::add_robot(RobotId robot, const std::string& name, std::set<std::string>& taken) {
+    const RobotType& type = model_->type_of(robot);
+    RobotPart part;
+    std::set<std::string> frames;
+    for (const Link& link : type.links)
+        part.frames.push_back(name + "/" + unique(ros_name(link.name), frames));
+    for (std::size_t j = 0; j < type.joints.size(); ++j)
+        if (type.joints[j].nv == 1) part.joints.push_back(JointId(j));
+    if (!part.joints.empty()) {
+        part.joint_states = topics_.size();
+        topics_.push_back(
+            {unique("/" + name + "/joint_states", taken), &type_of<JointStateMessage>(), false, robot});
+    }
+    robots_.push_back(std::move(part));
+
+    // Topics that several sensors have get the sensor's name in front.
+    std::map<std::string, int> uses;
+    for (const SensorInfo& info : type.sensors)
+        with_topics(*model_, info, [&](const char* suffix, const auto&) { ++uses[suffix]; });
+    for (std::size_t s = 0; s < type.sensors.size(); ++s) {
+        const SensorInfo& info = type.sensors[s];
+        const std::string sensor_name = ros_name(info.spec.name);
+        const bool is_camera = optics_of(info.spec) != nullptr;
+        Source source{robot, s, topics_.size(), 0, "", "", name + "/odom", {}};
+        with_topics(*model_, info, [&]<class M>(const char* suffix, const M&) {
+            const bool is_named = is_camera || uses[suffix] > 1;
+            const std::string topic = "/" + name + "/" + (is_named ? sensor_name + "/" : "") + suffix;
+            topics_.push_back({unique(topic, taken), &type_of<M>(), false, robot});
+        });
+        source.count = topics_.size() - source.first;
+        if (source.count == 0) {
+            if (!info.spec.as<JointStatesSpec>())
+                left_out_.push_back(model_->robots[robot.index()].name + "." + info.spec.name);
+            continue;
+        }
+        source.frame = unique(robots_.back().frames[info.link.index()] + "/" + sensor_name, frames);
+        if (is_camera) source.optical_frame = unique(source.frame + "_optical_frame", frames);
+        if (info.spec.as<WheelOdometrySpec>()) source.X_WO = to_transform(model_->robots[robot.index()].X_WR);
+        sources_.push_back(std::move(source));
+    }
+}
+
+void RobotTopics::select(std::vector<bool> wanted) {
+    wanted_ = std::move(wanted);
+    wanted_.resize(topics_.size(), false);
+}
+
+std::vector<RobotTopics::Message> RobotTopics::latched(Tick tick) const {
+    if (!wanted_[kTfStatic]) return {};
+    const Time stamp = time_of(*model_, tick);
+    TFMessage frames;
+    for (std::size_t r = 0; r < robots_.size(); ++r) {
+        const RobotType& type = model_->type_of(RobotId(r));
+        for (std::size_t l = 0; l < type.links.size(); ++l) {
+            const Link& link = type.links[l];
+            if (link.parent < 0) continue;
+            const Link& parent = type.links[static_cast<std::size_t>(link.parent)];
+            if (link.body != parent.body) continue;  // it moves: messages() has it
+            frames.transforms.push_back(transform(stamp,
+                                                  robots_[r].frames[static_cast<std::size_t>(link.parent)],
+                                                  robots_[r].frames[l], inverse(parent.X_BL) * link.X_BL));
+        }
+    }
+    std::set<std::string> odometry_frames;
+    for (const Source& source : sources_) {
+        const SensorInfo& info = model_->type_of(source.robot).sensors[source.sensor];
+        const std::string& link = robots_[source.robot.index()].frames[info.link.index()];
+        frames.transforms.push_back(transform(stamp, link, source.frame, to_transform(info.spec.X_LS)));
+        if (const CameraOptics* optics = optics_of(info.spec))
+            frames.transforms.push_back(
+                transform(stamp, source.frame, source.optical_frame, optical(*optics)));
+        const bool is_odometry = info.spec.as<OdometrySpec>() || info.spec.as<WheelOdometrySpec>();
+        if (is_odometry && odometry_frames.insert(source.odometry_frame).second)
+            frames.transforms.push_back(transform(stamp, "world", source.odometry_frame, source.X_WO));
+    }
+    return {{kTfStatic, to_cdr(frames)}};
+}
+
+std::string RobotTopics::moving_frames(Tick tick, std::span<const RobotState> states) const {
+    const Time stamp = time_of(*model_, tick);
+    TFMessage frames;
+    std::vector<Transform> bodies;
+    for (std::size_t r = 0; r < robots_.size(); ++r) {
+        const RobotType& type = model_->type_of(RobotId(r));
+        const std::vector<std::string>& names = robots_[r].frames;
+        bodies.resize(type.bodies.size());
+        body_poses(type, states[r], bodies);
+        const auto pose_of = [&](const Link& link) {
+            return (link.body < 0 ? to_transform(base_pose(states[r]))
+                                  : bodies[static_cast<std::size_t>(link.body)]) *
+                   link.X_BL;
+        };
+        for (std::size_t l = 0; l < type.links.size(); ++l) {
+            const Link& link = type.links[l];
+            if (link.parent < 0) {
+                frames.transforms.push_back(transform(stamp, "world", names[l], pose_of(link)));
+                continue;
+            }
+            const auto parent = static_cast<std::size_t>(link.parent);
+            if (link.body != type.links[parent].body)  // else latched() has it
+                frames.transforms.push_back(transform(stamp, names[parent], names[l],
+                                                      inverse(pose_of(type.links[parent])) * pose_of(link)));
+        }
+    }
+    return to_cdr(frames);
+}
+
+std::string RobotTopics::joint_states(Tick tick, RobotId robot, const RobotState& state) const {
+    const RobotType& type = model_->type_of(robot);
+    JointStateMessage joints;
+    joints.header.stamp = time_of(*model_, tick);
+    for (const JointId joint : robots_[robot.index()].joints) {
+        const JointState at = joint_state(type, state, joint);
+        joints.name.push_back(type.joints[joint.index()].name);
+        joints.position.push_back(at.position), joints.velocity.push_back(at.velocity);
+        joints.effort.push_back(motor_effort(*model_, type, state, joint));
+    }
+    return to_cdr(joints);
+}
+
+bool RobotTopics::is_due(const Source& source, Tick tick) const {
+    const auto begin = wanted_.begin() + static_cast<std::ptrdiff_t>(source.first);
+    if (std::find(begin, begin + static_cast<std::ptrdiff_t>(source.count), true) ==
+        begin + static_cast<std::ptrdiff_t>(source.count))
+        return false;
+    const double rate = model_->type_of(source.robot).sensors[source.sensor].spec.update_rate_hz;
+    return rate <= 0 || last_ < 0 || sample_is_due(rate, model_->dt_s, last_, tick);
+}
+
+void RobotTopics::add_readings(const Source& source, Tick tick, const Sample& sample,
+                               std::vector<Message>& out) const {
+    const SensorInfo& info = model_->type_of(source.robot).sensors[source.sensor];
+    const SensorPlace place{*model_,
+                            info,
+                            source.frame,
+                            source.optical_frame,
+                            robots_[source.robot.index()].frames.front(),
+                            source.odometry_frame,
+                            time_of(*model_, tick)};
+    std::size_t topic = source.first;
+    const auto add = [&](const char*, const auto& message) {
+        if (wanted_[topic]) out.push_back({topic, to_cdr(message)});
+        ++topic;
+    };
+    std::visit(
+        [&]<class Spec>(const Spec& spec) {
+            if constexpr (requires { typename Spec::Reading; })
+                publish(spec, std::get<typename Spec::Reading>(sample), place, add);
+        },
+        info.spec.parameters);
+}
+
+Result<std::vector<RobotTopics::Message>> RobotTopics::messages(Tick tick, std::span<const RobotState> states,
+                                                                const Measure& measure) {
+    std::vector<Message> out;
+    if (wanted_[kClock]) out.push_back({kClock, to_cdr(Clock{time_of(*model_, tick)})});
+    if (wanted_[kTf]) out.push_back({kTf, moving_frames(tick, states)});
+    for (std::size_t r = 0; r < robots_.size(); ++r)
+        if (const std::size_t topic = robots_[r].joint_states; topic != 0 && wanted_[topic])
+            out.push_back({topic, joint_states(tick, RobotId(r), states[r])});
+    for (const Source& source : sources_) {
+        if (!is_due(source, tick)) continue;
+        const Result<Sample> sample = measure(source.robot, source.sensor);
+        if (!sample) return sample.error();
+        add_readings(source, tick, sample.value(), out);
+    }
+    last_ = tick;
+    return out;
+}
+
+}  // namespace roboss::ros2

@@ -1,0 +1,88 @@
+// RobotTopics: the topics of ROS 2 that the robots of a world have, and their messages at a tick. What
+// records a run and what speaks to ROS 2 nodes take them from here, so that both say the same.
+//
+// /clock, /tf and /tf_static are of the world. In the namespace of its robot stand joint_states and one topic
+// or two for each sensor: "/car_3/scan"; "/car_3/front/scan" where the robot has several sensors with such a
+// topic, and always for cameras. Frames are "world", "car_3/chassis" for a link, "car_3/chassis/front" for a
+// sensor, "car_3/chassis/eye_optical_frame" for images, "car_3/odom" for odometry.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <set>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/result.h"
+#include "model/robot_state.h"
+#include "sensor_kinds/sensor_spec.h"
+
+namespace roboss::ros2 {
+
+/// A type of messages, as others must know it.
+struct MessageType {
+    std::string name,  ///< "sensor_msgs/msg/LaserScan"
+        hash,          ///< RIHS01
+        definition;    ///< in the format ros2msg
+};
+
+/// A topic.
+struct Topic {
+    std::string name;           ///< "/car_3/scan"
+    const MessageType* type{};  ///< of its messages
+    bool is_latched = false;    ///< who comes later gets the last message, too
+    RobotId robot;              ///< not valid: of the world
+};
+
+/// See the top of the file.
+class RobotTopics {
+  public:
+    /// A reading of a sensor (RobotType::sensors) of a robot at the tick of the messages.
+    using Measure = std::function<Result<Sample>(RobotId, std::size_t)>;
+    /// A message.
+    struct Message {
+        std::size_t topic = 0;  ///< number in topics()
+        std::string bytes;      ///< CDR
+    };
+
+    /// Of all robots of a world.
+    explicit RobotTopics(std::shared_ptr<const Model> model);
+    ~RobotTopics();
+    RobotTopics(RobotTopics&&) noexcept;
+    RobotTopics& operator=(RobotTopics&&) noexcept;
+
+    /// All topics, in a fixed order: those of the world first.
+    const std::vector<Topic>& topics() const { return topics_; }
+    /// Sensors that have no messages in ROS 2: "car_3.radio".
+    const std::vector<std::string>& left_out() const { return left_out_; }
+    /// From now on only these topics have messages; `wanted`: one for each of topics(). At first all have.
+    void select(std::vector<bool> wanted);
+
+    /// The messages of latched topics.
+    std::vector<Message> latched(Tick tick) const;
+    /// The other messages at a tick, with all states by RobotId. A sensor with an `<update_rate>` has them if
+    /// a sample is due since the tick of the last call. An Error names a sensor that cannot measure.
+    Result<std::vector<Message>> messages(Tick tick, std::span<const RobotState> states,
+                                          const Measure& measure);
+
+  private:
+    struct Source;
+    struct RobotPart;
+
+    void add_robot(RobotId robot, const std::string& name, std::set<std::string>& taken);
+    std::string moving_frames(Tick tick, std::span<const RobotState> states) const;
+    std::string joint_states(Tick tick, RobotId robot, const RobotState& state) const;
+    bool is_due(const Source& source, Tick tick) const;
+    void add_readings(const Source& source, Tick tick, const Sample& sample, std::vector<Message>& out) const;
+
+    std::shared_ptr<const Model> model_;
+    std::vector<Topic> topics_;
+    std::vector<bool> wanted_;
+    std::vector<std::string> left_out_;
+    std::vector<Source> sources_;
+    std::vector<RobotPart> robots_;
+    Tick last_ = -1;  // tick of the last call
+};
+
+}  // namespace roboss::ros2

@@ -1,0 +1,169 @@
+// The topics of a world's robots, and what their messages say of a state.
+#include "ros2/robot_topics.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <map>
+
+#include "ros2/cdr.h"
+#include "ros2/messages/sensor_messages.h"
+#include "sensors/test_model.h"
+
+namespace roboss::ros2 {
+namespace {
+
+using sensors_test::cart_type;
+using sensors_test::sensor;
+
+/// Two carts with a laser on the mast, two sonars, a camera, an odometer, which has no messages.
+std::shared_ptr<Model> carts() {
+    auto model = std::make_shared<Model>();
+    RobotType type = cart_type();
+    type.links[1].parent = 0, type.links[1].carrier = 0;
+    type.links[2].parent = 0, type.links[2].carrier = 1;
+    LaserSpec laser;
+    laser.samples = 3, laser.min_angle = -1, laser.max_angle = 1, laser.range_max = 5;
+    ColorCameraSpec camera;
+    camera.optics.width = 2, camera.optics.height = 1;
+    const auto mount = [&](const SensorSpec& spec, std::size_t link) {
+        type.sensors.push_back({spec, LinkId(link)});
+    };
+    mount(sensor("laser", laser, {{0, 0, 0.1}, {}}), 1);
+    type.sensors.back().spec.update_rate_hz = 10;
+    mount(sensor("left sonar", SonarSpec{}), 0);
+    mount(sensor("right", SonarSpec{}), 0);
+    mount(sensor("eye", camera), 1);
+    mount(sensor("steps", OdometerSpec{}), 0);
+    model->dt_s = 0.01;
+    model->types = {type};
+    model->robots = {{"cart 1", TypeId(std::size_t{0}), {}}, {"inner::cart", TypeId(std::size_t{0}), {}}};
+    return model;
+}
+
+/// Both at the same place, their wheels turning.
+std::vector<RobotState> moving_states() {
+    std::vector<RobotState> states(2);
+    for (RobotState& state : states)
+        state.q = {1, 2, 3, 1, 0, 0, 0, 0.25}, state.v = {0, 0, 0, 0, 0, 0, 4}, state.motors.resize(1);
+    return states;
+}
+
+Result<Sample> measured(RobotId, std::size_t number) {
+    LaserReading laser;
+    laser.samples = 3, laser.vertical_samples = 1;
+    laser.ranges = {1, std::numeric_limits<double>::infinity(), 2.5};
+    CameraReading camera;
+    camera.color = Image<std::uint8_t>(1, 2, 3, 7), camera.intrinsics = {1.5, 1.6, 1, 0.5};
+    SonarReading sonar;
+    sonar.range = 0.5;
+    if (number == 0) return Sample(laser);
+    if (number == 3) return Sample(camera);
+    return Sample(sonar);
+}
+
+std::map<std::string, std::string> by_topic(const RobotTopics& topics,
+                                            const std::vector<RobotTopics::Message>& messages) {
+    std::map<std::string, std::string> found;
+    for (const RobotTopics::Message& message : messages)
+        found[topics.topics()[message.topic].name] = message.bytes;
+    return found;
+}
+
+TEST(RobotTopics, NamesAreThoseThatRosAllows) {
+    const RobotTopics topics(carts());
+    std::vector<std::string> names;
+    for (const Topic& topic : topics.topics()) names.push_back(topic.name);
+    EXPECT_EQ(names, (std::vector<std::string>{
+                         "/clock", "/tf", "/tf_static", "/cart_1/joint_states", "/cart_1/scan",
+                         "/cart_1/left_sonar/range", "/cart_1/right/range", "/cart_1/eye/image_raw",
+                         "/cart_1/eye/camera_info", "/inner/cart/joint_states", "/inner/cart/scan",
+                         "/inner/cart/left_sonar/range", "/inner/cart/right/range",
+                         "/inner/cart/eye/image_raw", "/inner/cart/eye/camera_info"}));
+    EXPECT_EQ(topics.left_out(), (std::vector<std::string>{"cart 1.steps", "inner::cart.steps"}));
+}
+
+TEST(RobotTopics, MessagesSayWhatTheStateAndTheReadingsSay) {
+    const std::shared_ptr<Model> model = carts();
+    RobotTopics topics(model);
+    const auto all = topics.messages(150, moving_states(), measured);
+    ASSERT_TRUE(all);
+    auto found = by_topic(topics, all.value());
+    EXPECT_EQ(from_cdr<Clock>(found["/clock"]).value().clock.sec, 1);
+    EXPECT_EQ(from_cdr<Clock>(found["/clock"]).value().clock.nanosec, 500'000'000u);
+
+    const auto joints = from_cdr<JointStateMessage>(found["/cart_1/joint_states"]).value();
+    EXPECT_EQ(joints.name, std::vector<std::string>{"axle"});
+    EXPECT_EQ(joints.position, std::vector<double>{0.25});
+    EXPECT_EQ(joints.velocity, std::vector<double>{4});
+
+    const auto scan = from_cdr<LaserScan>(found["/cart_1/scan"]).value();
+    EXPECT_EQ(scan.header.frame_id, "cart_1/mast/laser");
+    EXPECT_EQ(scan.ranges, (std::vector<float>{1, std::numeric_limits<float>::infinity(), 2.5f}));
+    EXPECT_FLOAT_EQ(scan.angle_increment, 1);
+    EXPECT_FLOAT_EQ(scan.scan_time, 0.1f);
+
+    const auto image = from_cdr<ImageMessage>(found["/inner/cart/eye/image_raw"]).value();
+    EXPECT_EQ(image.encoding, "rgb8");
+    EXPECT_EQ(image.step, 6u);
+    EXPECT_EQ(image.data.size(), 6u);
+    EXPECT_EQ(image.header.frame_id, "inner/cart/mast/eye_optical_frame");
+    const auto info = from_cdr<CameraInfo>(found["/inner/cart/eye/camera_info"]).value();
+    EXPECT_EQ(info.k, (std::array<double, 9>{1.5, 0, 1, 0, 1.6, 0.5, 0, 0, 1}));
+
+    const auto frames = from_cdr<TFMessage>(found["/tf"]).value();
+    ASSERT_EQ(frames.transforms.size(), 4u);  // of each cart its base in the world, its wheel on the base
+    EXPECT_EQ(frames.transforms[0].header.frame_id, "world");
+    EXPECT_EQ(frames.transforms[0].child_frame_id, "cart_1/cart");
+    EXPECT_EQ(frames.transforms[0].transform.translation.z, 3);
+    EXPECT_EQ(frames.transforms[1].child_frame_id, "cart_1/wheel");
+    EXPECT_NEAR(frames.transforms[1].transform.rotation.y, std::sin(0.125), 1e-15);
+}
+
+TEST(RobotTopics, ImagesHaveAFrameThatLooksAlongZ) {
+    const RobotTopics topics(carts());
+    const auto frames = from_cdr<TFMessage>(topics.latched(0).at(0).bytes).value();
+    const auto& all = frames.transforms;
+    const auto eye = std::find_if(all.begin(), all.end(), [](const TransformStamped& frame) {
+        return frame.child_frame_id == "cart_1/mast/eye_optical_frame";
+    });
+    ASSERT_NE(eye, all.end());
+    const auto& q = eye->transform.rotation;
+    const Vec3 ahead = to_matrix(Quat{q.w, q.x, q.y, q.z}) * Vec3{0, 0, 1};
+    const Vec3 right = to_matrix(Quat{q.w, q.x, q.y, q.z}) * Vec3{1, 0, 0};
+    EXPECT_NEAR(ahead.x, 1, 1e-15);
+    EXPECT_NEAR(right.y, -1, 1e-15);
+}
+
+TEST(RobotTopics, SensorsWithARateHaveMessagesWhenASampleIsDue) {
+    const std::shared_ptr<Model> model = carts();
+    RobotTopics topics(model);
+    int scans = 0, ranges = 0;
+    for (Tick tick = 0; tick < 100; tick += 2) {  // 10 samples a second are due in a second of 50 calls
+        const auto messages = topics.messages(tick, moving_states(), measured);
+        ASSERT_TRUE(messages);
+        const auto found = by_topic(topics, messages.value());
+        scans += static_cast<int>(found.count("/cart_1/scan"));
+        ranges += static_cast<int>(found.count("/cart_1/right/range"));
+    }
+    EXPECT_EQ(scans, 10);
+    EXPECT_EQ(ranges, 50);
+}
+
+TEST(RobotTopics, WhatIsNotWantedIsNotMeasured) {
+    const std::shared_ptr<Model> model = carts();
+    RobotTopics topics(model);
+    std::vector<bool> wanted(topics.topics().size(), false);
+    wanted[3] = true;
+    topics.select(wanted);
+    const auto messages = topics.messages(0, moving_states(), [](RobotId, std::size_t) -> Result<Sample> {
+        ADD_FAILURE() << "a sensor was measured";
+        return Error{"no", ""};
+    });
+    ASSERT_TRUE(messages);
+    ASSERT_EQ(messages.value().size(), 1u);
+    EXPECT_EQ(messages.value().front().topic, 3u);
+}
+
+}  // namespace
+}  // namespace roboss::ros2

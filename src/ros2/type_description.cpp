@@ -1,0 +1,86 @@
+// See type_description.h.
+#include "ros2/type_description.h"
+
+#include <openssl/evp.h>
+
+#include <algorithm>
+#include <array>
+#include <string_view>
+
+namespace roboss::ros2 {
+
+namespace {
+
+/// Names of the primitive types by their number, as definitions have them.
+constexpr std::array<std::string_view, 18> kPrimitives{
+    "",       "",        "int8",    "uint8", "int16", "uint16", "int32", "uint32", "int64",
+    "uint64", "float32", "float64", "",      "",      "",       "bool",  "",       "string"};
+
+/// The text that the hash is of. Its spaces count.
+std::string json_of(const TypeDescription& type) {
+    std::string text = R"({"type_name": ")" + type.name + R"(", "fields": [)";
+    for (std::size_t i = 0; i < type.fields.size(); ++i) {
+        const FieldDescription& field = type.fields[i];
+        text += std::string(i == 0 ? "" : ", ") + R"({"name": ")" + field.name +
+                R"(", "type": {"type_id": )" + std::to_string(field.type + field.container) +
+                R"(, "capacity": )" + std::to_string(field.capacity) +
+                R"(, "string_capacity": 0, "nested_type_name": ")" + field.nested + R"("}})";
+    }
+    return text + "]}";
+}
+
+/// "geometry_msgs/Pose" of "geometry_msgs/msg/Pose".
+std::string short_name(const std::string& name) {
+    const std::size_t slash = name.find('/');
+    return name.substr(0, slash) + name.substr(name.rfind('/'));
+}
+
+std::string lines_of(const TypeDescription& type) {
+    std::string text;
+    for (const FieldDescription& field : type.fields) {
+        text += field.type == kNested ? short_name(field.nested) : std::string(kPrimitives[field.type]);
+        if (field.container == kSequence) text += "[]";
+        if (field.container == kArray) text += "[" + std::to_string(field.capacity) + "]";
+        text += " " + field.name + "\n";
+    }
+    return text;
+}
+
+}  // namespace
+
+std::string type_hash(const TypeDescription& type) {
+    std::string text = R"({"type_description": )" + json_of(type) + R"(, "referenced_type_descriptions": [)";
+    for (std::size_t i = 0; i < type.nested.size(); ++i)
+        text += (i == 0 ? "" : ", ") + json_of(type.nested[i]);
+    text += "]}";
+    std::array<unsigned char, EVP_MAX_MD_SIZE> digest{};
+    unsigned bytes = 0;
+    EVP_Digest(text.data(), text.size(), digest.data(), &bytes, EVP_sha256(), nullptr);
+    std::string hash = "RIHS01_";
+    for (unsigned i = 0; i < bytes; ++i) {
+        hash += "0123456789abcdef"[digest[i] >> 4];
+        hash += "0123456789abcdef"[digest[i] & 15];
+    }
+    return hash;
+}
+
+std::string definition_text(const TypeDescription& type) {
+    std::string text = lines_of(type);
+    for (const TypeDescription& part : type.nested)
+        text += std::string(80, '=') + "\nMSG: " + short_name(part.name) + "\n" + lines_of(part);
+    return text;
+}
+
+void add_nested(TypeDescription& type, TypeDescription part) {
+    std::vector<TypeDescription> parts = std::move(part.nested);
+    part.nested.clear();
+    parts.push_back(std::move(part));
+    for (TypeDescription& each : parts) {
+        const auto at =
+            std::lower_bound(type.nested.begin(), type.nested.end(), each.name,
+                             [](const TypeDescription& t, const std::string& n) { return t.name < n; });
+        if (at == type.nested.end() || at->name != each.name) type.nested.insert(at, std::move(each));
+    }
+}
+
+}  // namespace roboss::ros2

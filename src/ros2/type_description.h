@@ -1,0 +1,105 @@
+// TypeDescription: what ROS 2 says of a type of messages, so that others know it: its definition as text,
+// which recordings carry, and the hash RIHS01 by which two programs find out whether they mean the same type.
+// Source: REP 2011 and 2016; numbers of types as in type_description_interfaces/msg/FieldType.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "ros2/field_types.h"
+
+namespace roboss::ros2 {
+
+/// A field of a type.
+struct FieldDescription {
+    std::string name;            ///< unique in its type
+    std::uint8_t type = 0;       ///< number of the type of one element: kNested, or a primitive
+    std::uint8_t container = 0;  ///< kSingle, kArray or kSequence
+    std::uint64_t capacity = 0;  ///< of an array: how many elements
+    std::string nested;          ///< name of the type, of kNested
+};
+
+/// A type and the types that it consists of.
+struct TypeDescription {
+    std::string name;                      ///< "std_msgs/msg/Header"
+    std::vector<FieldDescription> fields;  ///< in their order
+    std::vector<TypeDescription> nested;   ///< all that it consists of, also indirectly, by name, each once
+};
+
+/// Values of FieldDescription::container.
+inline constexpr std::uint8_t kSingle = 0, kArray = 48, kSequence = 144;
+/// Value of FieldDescription::type.
+inline constexpr std::uint8_t kNested = 1;
+
+/// "RIHS01_" and 64 hexadecimal digits.
+std::string type_hash(const TypeDescription& type);
+/// The definition in the format ros2msg: that of the type, then those of the types that it consists of.
+std::string definition_text(const TypeDescription& type);
+
+/// Adds `part` and what it consists of to type.nested.
+void add_nested(TypeDescription& type, TypeDescription part);
+
+/// The number of a primitive type or of a string; kNested of messages.
+template <class T>
+constexpr std::uint8_t type_number() {
+    if constexpr (Message<T>)
+        return kNested;
+    else if constexpr (std::is_same_v<T, std::int8_t>)
+        return 2;
+    else if constexpr (std::is_same_v<T, std::uint8_t>)
+        return 3;
+    else if constexpr (std::is_same_v<T, std::int16_t>)
+        return 4;
+    else if constexpr (std::is_same_v<T, std::uint16_t>)
+        return 5;
+    else if constexpr (std::is_same_v<T, std::int32_t>)
+        return 6;
+    else if constexpr (std::is_same_v<T, std::uint32_t>)
+        return 7;
+    else if constexpr (std::is_same_v<T, std::int64_t>)
+        return 8;
+    else if constexpr (std::is_same_v<T, std::uint64_t>)
+        return 9;
+    else if constexpr (std::is_same_v<T, float>)
+        return 10;
+    else if constexpr (std::is_same_v<T, double>)
+        return 11;
+    else if constexpr (std::is_same_v<T, bool>)
+        return 15;
+    else {
+        static_assert(std::is_same_v<T, std::string>);
+        return 17;
+    }
+}
+
+/// The description of a message.
+template <Message M>
+TypeDescription describe() {
+    TypeDescription type{M::kName, {}, {}};
+    M message;
+    M::fields(
+        [&]<class T>(const char* name, const T& value) {
+            FieldDescription field{name, 0, kSingle, 0, ""};
+            const auto set_element = [&]<class E>(const E*) {
+                field.type = type_number<E>();
+                if constexpr (Message<E>) {
+                    field.nested = E::kName;
+                    add_nested(type, describe<E>());
+                }
+            };
+            if constexpr (kIsSequence<T>) {
+                field.container = kSequence;
+                set_element(static_cast<const typename T::value_type*>(nullptr));
+            } else if constexpr (kIsArray<T>) {
+                field.container = kArray, field.capacity = value.size();
+                set_element(static_cast<const typename T::value_type*>(nullptr));
+            } else
+                set_element(&value);
+            type.fields.push_back(std::move(field));
+        },
+        message);
+    return type;
+}
+
+}  // namespace roboss::ros2
