@@ -1,5 +1,6 @@
 """`roboss record --ros2`: what it writes is read, and written again to the same bytes, by readers of others (rosbags, mcap-ros2-support)."""
 import json
+import warnings
 
 import numpy as np
 import pytest
@@ -9,7 +10,7 @@ from rosbags.highlevel import AnyReader
 from rosbags.typesys import Stores, get_typestore
 
 import roboss
-from conftest import analysis_command
+from conftest import REPOSITORY, analysis_command
 from roboss import analysis
 from roboss.analysis.messages import composed
 
@@ -52,7 +53,7 @@ def test_others_write_the_same_bytes(tmp_path, world):
 def test_messages_say_what_the_run_says(tmp_path):
     done = analysis.record_ros2(CROSSROADS, tmp_path / "bag", ["/clock", "/tf*", "/car_3/*"], until=0.1)
     topics = bag_of(tmp_path / "bag")
-    assert set(topics) == {"/clock", "/tf", "/tf_static", "/car_3/joint_states", "/car_3/scan", "/car_3/gps_pose"}
+    assert set(topics) == {"/clock", "/tf", "/tf_static", "/car_3/joint_states", "/car_3/robot_description", "/car_3/scan", "/car_3/gps_pose"}
     assert done.messages == sum(len(times) for _, times, _, _ in topics.values()) and "car_3.odometer" in done.left_out
     sim = roboss.Simulation(CROSSROADS)
     car = sim.robots("car_3")
@@ -94,6 +95,61 @@ def test_wheels_stand_where_the_frames_say(tmp_path):
         got, expected = pose(f"car_5/{link}"), car.link_pose(link)[0]
         assert got[:3] == pytest.approx(expected[:3], abs=1e-12)
         assert abs(got[3:] @ expected[3:]) == pytest.approx(1, abs=1e-12)
+
+
+@pytest.mark.parametrize("world", ["crossroads", "arm", "spider", "scouts", "four_bar", "soccer"])
+def test_descriptions_move_as_the_robots_do(tmp_path, world):
+    """A robot made of the text has its links where the original has them, and the same inertia, whatever its joints do."""
+    source, urdf = REPOSITORY / "worlds" / f"{world}.sdf", tmp_path / "robot.urdf"
+    done = analysis.record_ros2(source, tmp_path / "run.mcap", ["/*/robot_description"], until=0)
+    original = loaded(source)
+    seen = set()
+    for robot, (_, topic, message) in zip(original.robots, messages_of(tmp_path / "run.mcap")):
+        name = topic.split("/")[1]
+        here = roboss.RobotModel(original, robot, cut_loops=True)
+        if str(here) in seen or not here.joints:
+            continue
+        seen.add(str(here))
+        urdf.write_text(message.data)
+        copy = loaded(urdf)
+        q, base = here.start.copy(), len(here.start) - len(here.joints)
+        q[base:] = np.random.default_rng(1).uniform(-1, 1, len(here.joints))
+        angles = dict(zip(here.joints, q[base:]))
+        parts = [(roboss.RobotModel(copy, part), configuration(roboss.RobotModel(copy, part), angles)) for part in copy.robots]
+
+        def pose_there(link):
+            model, r = next(part for part in parts if f"{name}/{link}" in part[0].links)
+            return model.link_pose(r, f"{name}/{link}")
+        root = inverted(pose_there(here.links[0])), inverted(here.link_pose(q, here.links[0]))
+        for link in here.links:
+            got, expected = composed(root[0], pose_there(link)), composed(root[1], here.link_pose(q, link))
+            assert got[:3] == pytest.approx(expected[:3], abs=1e-9) and abs(got[3:] @ expected[3:]) == pytest.approx(1, abs=1e-9)
+        if len(parts) == 1:  # else several hang on the world
+            (there, r), = parts
+            joints, order = 6 if here.free_base else 0, [there.joints.index(joint) for joint in here.joints]
+            rotors = here.mass_matrix(q)[joints:, joints:] - there.mass_matrix(r)[joints:, joints:][np.ix_(order, order)]
+            assert rotors == pytest.approx(np.diag(np.diag(rotors)), abs=1e-9) and np.diag(rotors).min() > -1e-9  # URDF has none
+    assert seen and len(done.variables) == len(original.robots)
+
+
+def configuration(model, angles):
+    """The start of a model with these positions of its joints, by name."""
+    q = model.start.copy()
+    q[len(q) - len(model.joints):] = [angles[joint] for joint in model.joints]
+    return q
+
+
+def loaded(path):
+    """A world, without its warnings."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", roboss.WorldWarning)
+        return roboss.load(path)
+
+
+def inverted(pose):
+    """The pose of the outer frame in the inner one."""
+    turned_back = np.array([0, 0, 0, *-pose[3:6], pose[6]])
+    return composed(turned_back, np.array([*-pose[:3], 0, 0, 0, 1]))
 
 
 def test_images_are_those_of_the_cameras(tmp_path):

@@ -15,6 +15,7 @@
 
 #include "core/check.h"
 #include "core/hash.h"
+#include "core/hex.h"
 
 namespace roboss {
 namespace {
@@ -181,13 +182,7 @@ std::string token_digest(std::string_view token) {
     unsigned bytes = 0;
     const int done = EVP_Digest(token.data(), token.size(), digest.data(), &bytes, EVP_sha256(), nullptr);
     ROBOSS_CHECK(done == 1 && bytes == 32, "OpenSSL has SHA-256");
-    std::string text;
-    for (unsigned i = 0; i < bytes; i += 8) {
-        std::uint64_t word = 0;
-        for (unsigned b = 0; b < 8; ++b) word = word << 8 | digest[i + b];
-        text += to_hex(word);
-    }
-    return text;
+    return hexadecimal(std::span(digest).first(bytes));
 }
 
 bool RateLimit::take(std::int64_t now_ms) {

@@ -5,18 +5,14 @@
 
 #include <random>
 
+#include "core/hex.h"
 #include "ros2/messages/sensor_messages.h"
 
 namespace roboss::ros2 {
 namespace {
 
 std::string hex(const std::string& bytes) {
-    std::string text;
-    for (const char c : bytes) {
-        text += "0123456789abcdef"[static_cast<unsigned char>(c) >> 4];
-        text += "0123456789abcdef"[static_cast<unsigned char>(c) & 15];
-    }
-    return text;
+    return hexadecimal({reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()});
 }
 
 JointStateMessage joints() {

@@ -10,6 +10,7 @@
 #include "physics/dynamics/kinematics.h"
 #include "physics/dynamics/motor_effort.h"
 #include "ros2/cdr.h"
+#include "ros2/robot_description.h"
 #include "ros2/sensor_messages.h"
 #include "ros2/type_description.h"
 
@@ -107,9 +108,11 @@ struct RobotTopics::Source {
 
 /// The names of a robot.
 struct RobotTopics::RobotPart {
+    std::string name;                 // in ROS 2
     std::vector<std::string> frames;  // by LinkId; the first is the base
     std::vector<JointId> joints;      // of one axis, that move
     std::size_t joint_states = 0;     // its topic; 0: none
+    std::size_t description = 0;      // its topic
 };
 
 RobotTopics::~RobotTopics() = default;
@@ -139,6 +142,8 @@ void RobotTopics::add_robot(RobotId robot, const std::string& name, std::set<std
         topics_.push_back(
             {unique("/" + name + "/joint_states", taken), &type_of<JointStateMessage>(), false, robot});
     }
+    part.name = name, part.description = topics_.size();
+    topics_.push_back({unique("/" + name + "/robot_description", taken), &type_of<String>(), true, robot});
     robots_.push_back(std::move(part));
 
     // Topics that several sensors have get the sensor's name in front.
@@ -174,7 +179,18 @@ void RobotTopics::select(std::vector<bool> wanted) {
 }
 
 std::vector<RobotTopics::Message> RobotTopics::latched(Tick tick) const {
-    if (!wanted_[kTfStatic]) return {};
+    std::vector<Message> out;
+    if (wanted_[kTfStatic]) out.push_back({kTfStatic, fixed_frames(tick)});
+    for (std::size_t r = 0; r < robots_.size(); ++r) {
+        const RobotPart& part = robots_[r];
+        if (wanted_[part.description])
+            out.push_back(
+                {part.description, to_cdr(String{urdf_of(*model_, RobotId(r), part.name, part.frames)})});
+    }
+    return out;
+}
+
+std::string RobotTopics::fixed_frames(Tick tick) const {
     const Time stamp = time_of(*model_, tick);
     TFMessage frames;
     for (std::size_t r = 0; r < robots_.size(); ++r) {
@@ -201,7 +217,7 @@ std::vector<RobotTopics::Message> RobotTopics::latched(Tick tick) const {
         if (is_odometry && odometry_frames.insert(source.odometry_frame).second)
             frames.transforms.push_back(transform(stamp, "world", source.odometry_frame, source.X_WO));
     }
-    return {{kTfStatic, to_cdr(frames)}};
+    return to_cdr(frames);
 }
 
 std::string RobotTopics::moving_frames(Tick tick, std::span<const RobotState> states) const {

@@ -71,6 +71,7 @@ class RobotTopics {
     struct RobotPart;
 
     void add_robot(RobotId robot, const std::string& name, std::set<std::string>& taken);
+    std::string fixed_frames(Tick tick) const;
     std::string moving_frames(Tick tick, std::span<const RobotState> states) const;
     std::string joint_states(Tick tick, RobotId robot, const RobotState& state) const;
     bool is_due(const Source& source, Tick tick) const;

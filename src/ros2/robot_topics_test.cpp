@@ -74,12 +74,13 @@ TEST(RobotTopics, NamesAreThoseThatRosAllows) {
     const RobotTopics topics(carts());
     std::vector<std::string> names;
     for (const Topic& topic : topics.topics()) names.push_back(topic.name);
-    EXPECT_EQ(names, (std::vector<std::string>{
-                         "/clock", "/tf", "/tf_static", "/cart_1/joint_states", "/cart_1/scan",
-                         "/cart_1/left_sonar/range", "/cart_1/right/range", "/cart_1/eye/image_raw",
-                         "/cart_1/eye/camera_info", "/inner/cart/joint_states", "/inner/cart/scan",
-                         "/inner/cart/left_sonar/range", "/inner/cart/right/range",
-                         "/inner/cart/eye/image_raw", "/inner/cart/eye/camera_info"}));
+    EXPECT_EQ(names,
+              (std::vector<std::string>{
+                  "/clock", "/tf", "/tf_static", "/cart_1/joint_states", "/cart_1/robot_description",
+                  "/cart_1/scan", "/cart_1/left_sonar/range", "/cart_1/right/range", "/cart_1/eye/image_raw",
+                  "/cart_1/eye/camera_info", "/inner/cart/joint_states", "/inner/cart/robot_description",
+                  "/inner/cart/scan", "/inner/cart/left_sonar/range", "/inner/cart/right/range",
+                  "/inner/cart/eye/image_raw", "/inner/cart/eye/camera_info"}));
     EXPECT_EQ(topics.left_out(), (std::vector<std::string>{"cart 1.steps", "inner::cart.steps"}));
 }
 
@@ -118,6 +119,18 @@ TEST(RobotTopics, MessagesSayWhatTheStateAndTheReadingsSay) {
     EXPECT_EQ(frames.transforms[0].transform.translation.z, 3);
     EXPECT_EQ(frames.transforms[1].child_frame_id, "cart_1/wheel");
     EXPECT_NEAR(frames.transforms[1].transform.rotation.y, std::sin(0.125), 1e-15);
+}
+
+TEST(RobotTopics, ADescriptionNamesTheLinksAsTheFramesDo) {
+    const RobotTopics topics(carts());
+    const std::string urdf =
+        from_cdr<String>(by_topic(topics, topics.latched(0))["/cart_1/robot_description"]).value().data;
+    for (const char* part :
+         {R"(<robot name="cart_1">)", R"(<link name="cart_1/wheel">)", R"(<box size="0.4 0.2 0.1"/>)",
+          R"(<joint name="axle" type="continuous"><parent link="cart_1/cart"/><child link="cart_1/wheel"/>)",
+          R"(<origin xyz="0.5 0 0" rpy="0 0 0"/><axis xyz="0 1 0"/>)",
+          R"(<joint name="mast_joint" type="fixed">)"})
+        EXPECT_NE(urdf.find(part), std::string::npos) << part << "\n" << urdf;
 }
 
 TEST(RobotTopics, ImagesHaveAFrameThatLooksAlongZ) {

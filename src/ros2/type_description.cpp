@@ -5,7 +5,10 @@
 
 #include <algorithm>
 #include <array>
+#include <span>
 #include <string_view>
+
+#include "core/hex.h"
 
 namespace roboss::ros2 {
 
@@ -56,12 +59,7 @@ std::string type_hash(const TypeDescription& type) {
     std::array<unsigned char, EVP_MAX_MD_SIZE> digest{};
     unsigned bytes = 0;
     EVP_Digest(text.data(), text.size(), digest.data(), &bytes, EVP_sha256(), nullptr);
-    std::string hash = "RIHS01_";
-    for (unsigned i = 0; i < bytes; ++i) {
-        hash += "0123456789abcdef"[digest[i] >> 4];
-        hash += "0123456789abcdef"[digest[i] & 15];
-    }
-    return hash;
+    return "RIHS01_" + hexadecimal(std::span(digest).first(bytes));
 }
 
 std::string definition_text(const TypeDescription& type) {

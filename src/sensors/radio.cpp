@@ -12,6 +12,7 @@
 #include <tuple>
 
 #include "core/float_env.h"
+#include "core/hex.h"
 #include "core/noise.h"
 #include "physics/dynamics/kinematics.h"
 #include "sensors/radio_link.h"
@@ -224,14 +225,6 @@ class Receiver {
     double longest_s_ = 0;  // of all signals
     double first_s_ = std::numeric_limits<double>::infinity();
 };
-
-std::string hexadecimal(std::span<const std::uint8_t> bytes) {
-    constexpr char kDigits[] = "0123456789abcdef";
-    std::string text;
-    text.reserve(2 * bytes.size());
-    for (const std::uint8_t byte : bytes) text += {kDigits[byte >> 4], kDigits[byte & 15]};
-    return text;
-}
 
 }  // namespace
 

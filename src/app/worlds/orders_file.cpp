@@ -10,6 +10,7 @@
 #include <stdexcept>
 
 #include "app/worlds/line_faults.h"
+#include "core/hex.h"
 #include "core/similar.h"
 #include "model/addressee.h"
 #include "model/robot_names.h"
@@ -295,13 +296,6 @@ std::vector<std::uint8_t> bytes_of(const std::string& digits) {
     return bytes;
 }
 
-std::string digits_of(const std::vector<std::uint8_t>& bytes) {
-    constexpr char kDigits[] = "0123456789abcdef";
-    std::string digits;
-    for (const std::uint8_t byte : bytes) digits += {kDigits[byte >> 4], kDigits[byte & 15]};
-    return digits;
-}
-
 Action parse_transmit(const json& o, const Model& model, RobotId robot) {
     only_keys(o, "transmit", {"radio", "to", "text", "hex"});
     const RobotType& type = model.type_of(robot);
@@ -503,7 +497,7 @@ struct ActionToJson {
     }
     void operator()(const Transmit& a) const {
         line["transmit"] = {{"radio", type.sensors[type.radios[a.radio]].spec.name},
-                            {"hex", digits_of(a.payload)}};
+                            {"hex", hexadecimal(a.payload)}};
         if (a.to.valid()) line["transmit"]["to"] = model.robots[a.to.index()].name;
     }
     void operator()(const Detach& a) const {
