@@ -14,18 +14,15 @@ void expect_hash(const std::string& published) {
 }
 
 TEST(TypeDescription, HashesAreThePublishedOnes) {
-    expect_hash<Duration>("e8d009f659816f758b75334ee1a9ca5b5c0b859843261f14c7f937349599d93b");
     expect_hash<Time>("b106235e25a4c5ed35098aa0a61a3ee9c9b18d197f398b0e4206cea9acf9c197");
     expect_hash<Point>("6963084842a9b04494d6b2941d11444708d892da2f4b09843b9c43f42a7f6881");
     expect_hash<PoseMessage>("d501954e9476cea2996984e812054b68026ae0bfae789d9a10b23daf35cc90fa");
-    expect_hash<PoseArray>("af0cc36d190e104d546d168d6b39df04fa4b4ccecf59cb4c9ed328d3d5004aa0");
     expect_hash<PoseStamped>("10f3786d7d40fd2b54367835614bff85d4ad3b5dab62bf8bca0cc232d73b4cd8");
     expect_hash<PoseWithCovariance>("9a7c0fd234b7f45c6098745ecccd773ca1085670e64107135397aee31c02e1bb");
     expect_hash<Quaternion>("8a765f66778c8ff7c8ab94afcc590a2ed5325a1d9a076ffff38fbce36f458684");
     expect_hash<TransformMessage>("beb83fbe698636351461f6f35d1abb20010c43d55374d81bd041f1ba2581fddc");
     expect_hash<TransformStamped>("0a241f87d04668d94099cbb5ba11691d5ad32c2f29682e4eb5653424bd275206");
     expect_hash<TwistMessage>("9c45bf16fe0983d80e3cfe750d6835843d265a9a6c46bd2e609fcddde6fb8d2a");
-    expect_hash<TwistStamped>("5f0fcd4f81d5d06ad9b4c4c63e3ea51b82d6ae4d0558f1d475229b1121db6f64");
     expect_hash<TwistWithCovariance>("49f574f033f095d8b6cd1beaca5ca7925e296e84af1716d16c89d38b059c8c18");
     expect_hash<Vector3>("cc12fe83e4c02719f1ce8070bfd14aecd40f75a96696a67a2a1f37f7dbb0765d");
     expect_hash<WrenchMessage>("018e8519d57c16adbe97c9fe1460ef21fec7e31bc541de3d653a35895677ce52");
@@ -46,7 +43,6 @@ TEST(TypeDescription, HashesAreThePublishedOnes) {
     expect_hash<PointField>("5c6a4750728c2bcfbbf7037225b20b02d4429634732146b742dee1726637ef01");
     expect_hash<Range>("b42b62562e93cbfe9d42b82fe5994dfa3d63d7d5c90a317981703f7388adff3a");
     expect_hash<RegionOfInterest>("ad16bcba5f9131dcdba6fbded19f726f5440e3c513b4fb586dd3027eeed8abb1");
-    expect_hash<Float64>("705ba9c3d1a09df43737eb67095534de36fd426c0587779bda2bc51fe790182a");
     expect_hash<Header>("f49fb3ae2cf070f793645ff749683ac6b06203e41c891e17701b1cb597ce6a01");
     expect_hash<String>("df668c740482bbd48fb39d76a70dfd4bd59db1288021743503259e948f6b1a18");
     expect_hash<TFMessage>("e369d0f05a23ae52508854b66f6aa0437f3449d652e8cbf22d5abe85d020f087");

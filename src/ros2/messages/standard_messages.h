@@ -25,20 +25,6 @@ struct Time {
     }
 };
 
-/// builtin_interfaces/msg/Duration
-struct Duration {
-    static constexpr const char* kName = "builtin_interfaces/msg/Duration";
-    std::int32_t sec = 0;       ///< s
-    std::uint32_t nanosec = 0;  ///< ns, below 10^9
-
-    /// Calls visit(name, value) for each field, always in the same order.
-    template <class Visitor, class Self>
-    static void fields(Visitor&& visit, Self& m) {
-        visit("sec", m.sec);
-        visit("nanosec", m.nanosec);
-    }
-};
-
 /// std_msgs/msg/Header
 struct Header {
     static constexpr const char* kName = "std_msgs/msg/Header";
@@ -57,18 +43,6 @@ struct Header {
 struct String {
     static constexpr const char* kName = "std_msgs/msg/String";
     std::string data;  ///< the text
-
-    /// Calls visit(name, value) for each field, always in the same order.
-    template <class Visitor, class Self>
-    static void fields(Visitor&& visit, Self& m) {
-        visit("data", m.data);
-    }
-};
-
-/// std_msgs/msg/Float64
-struct Float64 {
-    static constexpr const char* kName = "std_msgs/msg/Float64";
-    double data = 0;  ///< the number
 
     /// Calls visit(name, value) for each field, always in the same order.
     template <class Visitor, class Self>
@@ -174,20 +148,6 @@ struct PoseStamped {
     }
 };
 
-/// geometry_msgs/msg/PoseArray
-struct PoseArray {
-    static constexpr const char* kName = "geometry_msgs/msg/PoseArray";
-    Header header;                   ///< time and frame
-    std::vector<PoseMessage> poses;  ///< m
-
-    /// Calls visit(name, value) for each field, always in the same order.
-    template <class Visitor, class Self>
-    static void fields(Visitor&& visit, Self& m) {
-        visit("header", m.header);
-        visit("poses", m.poses);
-    }
-};
-
 /// geometry_msgs/msg/Twist
 struct TwistMessage {
     static constexpr const char* kName = "geometry_msgs/msg/Twist";
@@ -199,20 +159,6 @@ struct TwistMessage {
     static void fields(Visitor&& visit, Self& m) {
         visit("linear", m.linear);
         visit("angular", m.angular);
-    }
-};
-
-/// geometry_msgs/msg/TwistStamped
-struct TwistStamped {
-    static constexpr const char* kName = "geometry_msgs/msg/TwistStamped";
-    Header header;       ///< time and frame
-    TwistMessage twist;  ///< m/s, rad/s
-
-    /// Calls visit(name, value) for each field, always in the same order.
-    template <class Visitor, class Self>
-    static void fields(Visitor&& visit, Self& m) {
-        visit("header", m.header);
-        visit("twist", m.twist);
     }
 };
 
