@@ -1,6 +1,5 @@
 """`roboss record --ros2`: what it writes is read, and written again to the same bytes, by readers of others (rosbags, mcap-ros2-support)."""
 import json
-import warnings
 
 import numpy as np
 import pytest
@@ -13,6 +12,7 @@ import roboss
 from conftest import REPOSITORY, analysis_command
 from roboss import analysis
 from roboss.analysis.messages import composed
+from roboss.analysis.recorder import opened_world
 
 CROSSROADS, CAMERAS = roboss.example("crossroads.sdf"), roboss.example("cameras.sdf")
 
@@ -102,7 +102,7 @@ def test_descriptions_move_as_the_robots_do(tmp_path, world):
     """A robot made of the text has its links where the original has them, and the same inertia, whatever its joints do."""
     source, urdf = REPOSITORY / "worlds" / f"{world}.sdf", tmp_path / "robot.urdf"
     done = analysis.record_ros2(source, tmp_path / "run.mcap", ["/*/robot_description"], until=0)
-    original = loaded(source)
+    original = opened_world(source)
     seen = set()
     for robot, (_, topic, message) in zip(original.robots, messages_of(tmp_path / "run.mcap")):
         name = topic.split("/")[1]
@@ -111,11 +111,11 @@ def test_descriptions_move_as_the_robots_do(tmp_path, world):
             continue
         seen.add(str(here))
         urdf.write_text(message.data)
-        copy = loaded(urdf)
+        copy = opened_world(urdf)
         q, base = here.start.copy(), len(here.start) - len(here.joints)
         q[base:] = np.random.default_rng(1).uniform(-1, 1, len(here.joints))
         angles = dict(zip(here.joints, q[base:]))
-        parts = [(roboss.RobotModel(copy, part), configuration(roboss.RobotModel(copy, part), angles)) for part in copy.robots]
+        parts = [(model, configuration(model, angles)) for model in (roboss.RobotModel(copy, part) for part in copy.robots)]
 
         def pose_there(link):
             model, r = next(part for part in parts if f"{name}/{link}" in part[0].links)
@@ -137,13 +137,6 @@ def configuration(model, angles):
     q = model.start.copy()
     q[len(q) - len(model.joints):] = [angles[joint] for joint in model.joints]
     return q
-
-
-def loaded(path):
-    """A world, without its warnings."""
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", roboss.WorldWarning)
-        return roboss.load(path)
 
 
 def inverted(pose):

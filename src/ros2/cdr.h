@@ -65,7 +65,7 @@ class CdrWriter {
 /// Reads fields from bytes. After the first that does not fit, it reads nothing more.
 class CdrReader {
   public:
-    /// Of a whole message.
+    /// Reads the bytes of a whole message.
     explicit CdrReader(std::string_view bytes) {
         if (bytes.size() < 4 || bytes[0] != 0 || (bytes[1] != 0 && bytes[1] != 1)) {
             fail("it does not begin as CDR");

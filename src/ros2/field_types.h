@@ -1,4 +1,4 @@
-// How the fields of a message are told apart, for all that is made from them.
+// Kinds of fields of a message: primitives, arrays, sequences, messages.
 #pragma once
 
 #include <array>

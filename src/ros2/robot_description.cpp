@@ -5,6 +5,7 @@
 #include <charconv>
 #include <cmath>
 
+#include "core/markup.h"
 #include "model/robot_state.h"
 #include "world/joint_kind.h"
 
@@ -21,18 +22,7 @@ std::string text(const Vec3& v) {
     return text(v.x) + " " + text(v.y) + " " + text(v.z);
 }
 std::string quoted(const std::string& name) {
-    std::string result = "\"";
-    for (const char c : name) {
-        if (c == '&')
-            result += "&amp;";
-        else if (c == '<')
-            result += "&lt;";
-        else if (c == '"')
-            result += "&quot;";
-        else
-            result += c;
-    }
-    return result + "\"";
+    return "\"" + escaped(name) + "\"";
 }
 
 /// Roll, pitch and yaw about fixed axes, rad.
@@ -45,8 +35,7 @@ std::string origin(const Transform& X) {
     return "<origin xyz=\"" + text(X.p) + "\" rpy=\"" + text(rpy(X.R)) + "\"/>";
 }
 bool is_identity(const Transform& X) {
-    const Vec3 angles = rpy(X.R);
-    return X.p == Vec3{} && angles == Vec3{};
+    return X.p == Vec3{} && rpy(X.R) == Vec3{};
 }
 
 /// The shape as URDF has it, at its pose in the link; several: a capsule; none: URDF has no such shape.
@@ -87,18 +76,18 @@ class Writer {
         const std::string world = "world";
         for (std::size_t l = 0; l < type_.links.size(); ++l) {
             const int parent = type_.links[l].parent;
-            if (parent >= 0)
-                add_joints(l, {frames_[static_cast<std::size_t>(parent)],
-                               type_.links[static_cast<std::size_t>(parent)].body,
-                               inverse(type_.links[static_cast<std::size_t>(parent)].X_BL)});
-            else if (!type_.free_base)
+            if (parent >= 0) {
+                const Link& from = type_.links[static_cast<std::size_t>(parent)];
+                add_joints(l, {frames_[static_cast<std::size_t>(parent)], from.body, inverse(from.X_BL)});
+            } else if (!type_.free_base) {
                 add_joints(l, {world, -1, X_WB});
+            }
         }
         return out_ + "</robot>\n";
     }
 
   private:
-    /// What a joint hangs on.
+    /// A link on which a joint hangs.
     struct Holder {
         const std::string& link;  // its name
         int body;                 // -1: the fixed base

@@ -67,18 +67,6 @@ TransformStamped transform(const Time& stamp, std::string parent, std::string ch
             {{pose.p.x, pose.p.y, pose.p.z}, sensor_messages::quaternion(pose.q)}};
 }
 
-/// Calls out(suffix, message) for each topic of the sensor, with an empty message.
-template <class Out>
-void with_topics(const Model& model, const SensorInfo& info, Out&& out) {
-    const SensorPlace place{model, info, "", "", "", "", {}};
-    std::visit(
-        [&]<class Spec>(const Spec& spec) {
-            if constexpr (requires { typename Spec::Reading; })
-                publish(spec, typename Spec::Reading{}, place, out);
-        },
-        info.spec.parameters);
-}
-
 /// A camera's optical frame in the frame of the sensor: z ahead, x right, y down.
 Transform optical(const CameraOptics& optics) {
     const Transform ahead{to_matrix(Quat{0.5, -0.5, 0.5, -0.5}), {}};  // w x y z
@@ -120,9 +108,9 @@ RobotTopics::RobotTopics(RobotTopics&&) noexcept = default;
 RobotTopics& RobotTopics::operator=(RobotTopics&&) noexcept = default;
 
 RobotTopics::RobotTopics(std::shared_ptr<const Model> model) : model_(std::move(model)) {
-    topics_ = {{"/clock", &type_of<Clock>(), false, {}},
-               {"/tf", &type_of<TFMessage>(), false, {}},
-               {"/tf_static", &type_of<TFMessage>(), true, {}}};
+    topics_ = {{"/clock", &type_of<Clock>(), false},
+               {"/tf", &type_of<TFMessage>(), false},
+               {"/tf_static", &type_of<TFMessage>(), true}};
     std::set<std::string> names{"clock", "tf", "tf_static"}, taken;
     for (std::size_t r = 0; r < model_->robots.size(); ++r)
         add_robot(RobotId(r), unique(ros_name(model_->robots[r].name), names), taken);
@@ -134,31 +122,34 @@ void RobotTopics::add_robot(RobotId robot, const std::string& name, std::set<std
     RobotPart part;
     std::set<std::string> frames;
     for (const Link& link : type.links)
-        part.frames.push_back(name + "/" + unique(ros_name(link.name), frames));
+        part.frames.push_back(unique(name + "/" + ros_name(link.name), frames));
     for (std::size_t j = 0; j < type.joints.size(); ++j)
         if (type.joints[j].nv == 1) part.joints.push_back(JointId(j));
     if (!part.joints.empty()) {
         part.joint_states = topics_.size();
         topics_.push_back(
-            {unique("/" + name + "/joint_states", taken), &type_of<JointStateMessage>(), false, robot});
+            {unique("/" + name + "/joint_states", taken), &type_of<JointStateMessage>(), false});
     }
     part.name = name, part.description = topics_.size();
-    topics_.push_back({unique("/" + name + "/robot_description", taken), &type_of<String>(), true, robot});
+    topics_.push_back({unique("/" + name + "/robot_description", taken), &type_of<String>(), true});
     robots_.push_back(std::move(part));
 
     // Topics that several sensors have get the sensor's name in front.
     std::map<std::string, int> uses;
+    const auto place_of = [&](const SensorInfo& info) {
+        return SensorPlace{*model_, info, "", "", "", "", {}};
+    };
     for (const SensorInfo& info : type.sensors)
-        with_topics(*model_, info, [&](const char* suffix, const auto&) { ++uses[suffix]; });
+        publish(place_of(info), nullptr, [&](const char* suffix, const auto&) { ++uses[suffix]; });
     for (std::size_t s = 0; s < type.sensors.size(); ++s) {
         const SensorInfo& info = type.sensors[s];
         const std::string sensor_name = ros_name(info.spec.name);
         const bool is_camera = optics_of(info.spec) != nullptr;
         Source source{robot, s, topics_.size(), 0, "", "", name + "/odom", {}};
-        with_topics(*model_, info, [&]<class M>(const char* suffix, const M&) {
+        publish(place_of(info), nullptr, [&]<class M>(const char* suffix, const M&) {
             const bool is_named = is_camera || uses[suffix] > 1;
             const std::string topic = "/" + name + "/" + (is_named ? sensor_name + "/" : "") + suffix;
-            topics_.push_back({unique(topic, taken), &type_of<M>(), false, robot});
+            topics_.push_back({unique(topic, taken), &type_of<M>(), false});
         });
         source.count = topics_.size() - source.first;
         if (source.count == 0) {
@@ -282,16 +273,10 @@ void RobotTopics::add_readings(const Source& source, Tick tick, const Sample& sa
                             source.odometry_frame,
                             time_of(*model_, tick)};
     std::size_t topic = source.first;
-    const auto add = [&](const char*, const auto& message) {
+    publish(place, &sample, [&](const char*, const auto& message) {
         if (wanted_[topic]) out.push_back({topic, to_cdr(message)});
         ++topic;
-    };
-    std::visit(
-        [&]<class Spec>(const Spec& spec) {
-            if constexpr (requires { typename Spec::Reading; })
-                publish(spec, std::get<typename Spec::Reading>(sample), place, add);
-        },
-        info.spec.parameters);
+    });
 }
 
 Result<std::vector<RobotTopics::Message>> RobotTopics::messages(Tick tick, std::span<const RobotState> states,

@@ -32,7 +32,6 @@ struct Topic {
     std::string name;           ///< "/car_3/scan"
     const MessageType* type{};  ///< of its messages
     bool is_latched = false;    ///< who comes later gets the last message, too
-    RobotId robot;              ///< not valid: of the world
 };
 
 /// See the top of the file.
@@ -46,7 +45,7 @@ class RobotTopics {
         std::string bytes;      ///< CDR
     };
 
-    /// Of all robots of a world.
+    /// Collects the topics of all robots of a world.
     explicit RobotTopics(std::shared_ptr<const Model> model);
     ~RobotTopics();
     RobotTopics(RobotTopics&&) noexcept;

@@ -1,6 +1,6 @@
-// What the readings of each kind of sensor are in ROS 2. For each kind that has messages, one function says
-// on which topics they go, and what is in them: publish(spec, reading, place, out) calls out(suffix, message)
-// for each topic, always in the same order. The topics of a sensor are known from an empty reading.
+// Messages of ROS 2 made from the readings of sensors, one function for each kind of sensor that has
+// messages: publish(spec, reading, place, out) calls out(suffix, message) for each topic, always in the same
+// order. The topics of a sensor are known from an empty reading.
 #pragma once
 
 #include "model/model.h"
@@ -251,6 +251,19 @@ void publish(const SegmentationCameraSpec& camera, const SegmentationCameraReadi
     using namespace sensor_messages;
     out("labels/image_raw", image(reading.labels, "mono8", place));
     out("labels/camera_info", camera_info(camera.optics, reading.intrinsics, reading.distortion, place));
+}
+
+/// The function of the sensor's kind. `sample`: its reading; null: an empty one.
+template <class Out>
+void publish(const SensorPlace& place, const Sample* sample, Out&& out) {
+    std::visit(
+        [&]<class Spec>(const Spec& spec) {
+            if constexpr (requires { typename Spec::Reading; }) {
+                using Reading = typename Spec::Reading;
+                publish(spec, sample != nullptr ? std::get<Reading>(*sample) : Reading{}, place, out);
+            }
+        },
+        place.info.spec.parameters);
 }
 
 }  // namespace roboss::ros2

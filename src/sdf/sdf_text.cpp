@@ -1,31 +1,14 @@
 // See sdf_text.h. The text has one element a line: the n-th line is that of the n-th element.
 #include "sdf/sdf_text.h"
 
+#include "core/markup.h"
+
 namespace roboss::sdf_import {
 
-std::string escaped(const std::string& text) {
-    std::string result;
-    for (const char c : text) switch (c) {
-            case '&':
-                result += "&amp;";
-                break;
-            case '<':
-                result += "&lt;";
-                break;
-            case '>':
-                result += "&gt;";
-                break;
-            case '"':
-                result += "&quot;";
-                break;
-            case '\n':
-            case '\r':
-                result += ' ';
-                break;
-            default:
-                result += c;
-        }
-    return result;
+std::string escaped_line(std::string text) {
+    for (char& c : text)
+        if (c == '\n' || c == '\r') c = ' ';
+    return escaped(text);
 }
 
 pugi::xml_node SdfText::add(pugi::xml_node parent, const char* name, pugi::xml_node from,
@@ -58,13 +41,13 @@ void SdfText::print(pugi::xml_node node, SourceLocation place, std::string& text
     places.push_back(place);
     text += "\n<" + std::string(node.name());
     for (const auto attribute : node.attributes())
-        text += " " + std::string(attribute.name()) + "=\"" + escaped(attribute.value()) + "\"";
+        text += " " + std::string(attribute.name()) + "=\"" + escaped_line(attribute.value()) + "\"";
     text += '>';
     for (const auto child : node.children()) {
         if (child.type() == pugi::node_element)
             print(child, place, text, places);
         else if (child.type() == pugi::node_pcdata || child.type() == pugi::node_cdata)
-            text += escaped(child.value());
+            text += escaped_line(child.value());
     }
     text += "</" + std::string(node.name()) + ">";
 }

@@ -13,7 +13,7 @@ namespace roboss::sdf_import {
 
 /// The text as it stands in a value or an attribute, in one line: white space of any kind separates words in
 /// SDF.
-std::string escaped(const std::string& text);
+std::string escaped_line(std::string text);
 
 class SdfText {
   public:

@@ -5,7 +5,7 @@ import tempfile
 import time
 from contextlib import ExitStack
 from pathlib import Path
-from typing import Any
+from typing import Any, Sequence
 
 from ..errors import ArgumentError
 from .command import Parser, Progress, check_file
@@ -92,8 +92,7 @@ def run(options: Any) -> Any:
     if options.ros2:
         return _told_of_topics(options, done, progress, time.monotonic() - begin)
     if done.left_out:
-        progress.note(f"without {', '.join(done.left_out[:8])}{' ...' if len(done.left_out) > 8 else ''}: with {options.every:g} s "
-                      "between samples messages would be missing (--every)")
+        progress.note(f"without {_first_of(done.left_out)}: with {options.every:g} s between samples messages would be missing (--every)")
     result = {"file": options.output, "variables": done.variables, "left_out": list(done.left_out),
               "columns": done.columns, "samples": done.samples,
               "first_s": done.first, "last_s": done.last, "took_s": round(time.monotonic() - begin, 3)}
@@ -112,10 +111,13 @@ def _check_name(options: Any) -> None:
                             "give -o FILE.parquet, FILE.mcap or FILE.csv", "unknown-format")
 
 
+def _first_of(names: Sequence[str]) -> str:
+    return ", ".join(names[:8]) + (" ..." if len(names) > 8 else "")
+
+
 def _told_of_topics(options: Any, done: Recorded, progress: Progress, took: float) -> Any:
     if done.left_out:
-        progress.note(f"without {', '.join(done.left_out[:8])}{' ...' if len(done.left_out) > 8 else ''}: these sensors have no "
-                      "message in ROS 2 here")
+        progress.note(f"without {_first_of(done.left_out)}: these sensors have no message in ROS 2 here")
     if not options.json:
         print(f"{options.output}: {len(done.variables)} topics, {done.messages} messages from {done.first:g} to {done.last:g} s")
     return {"file": options.output, "topics": done.variables, "left_out": list(done.left_out), "messages": done.messages,

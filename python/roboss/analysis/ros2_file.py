@@ -34,7 +34,8 @@ class Ros2Writer:
         self._channels: dict[str, int] = {}   # numbers by topic
         self._topics: dict[str, Topic] = {}
         self.counts: dict[str, int] = {}      #: messages by topic
-        self.first = self.last = 0            #: times of the first and the last message, ns
+        self._first = self._last = 0          # times of the first and the last message, ns
+        self._total = 0                       # messages
 
     def add_topic(self, topic: Topic) -> None:
         """A topic without messages so far. One that is there stays."""
@@ -50,11 +51,11 @@ class Ros2Writer:
 
     def add(self, topic: str, stamp: int, message: bytes) -> None:
         """A message of a topic at a time, ns."""
-        if not any(self.counts.values()):
-            self.first = stamp
-        self.last = max(self.last, stamp)
+        self._first = stamp if self._total == 0 else self._first
+        self._last = max(self._last, stamp)
         self._writer.add_message(self._channels[topic], stamp, message, stamp, self.counts[topic])
         self.counts[topic] += 1
+        self._total += 1
 
     def __enter__(self) -> Ros2Writer:
         return self
@@ -67,16 +68,15 @@ class Ros2Writer:
             (self._folder / "metadata.yaml").write_text(json.dumps(self._metadata(), indent=2) + "\n")  # JSON is YAML
 
     def _metadata(self) -> dict[str, Any]:
-        start, duration = {"nanoseconds_since_epoch": self.first}, {"nanoseconds": self.last - self.first}
-        total = sum(self.counts.values())
+        start, duration = {"nanoseconds_since_epoch": self._first}, {"nanoseconds": self._last - self._first}
         topics = [{"topic_metadata": {"name": topic.name, "type": topic.type, "serialization_format": "cdr",
                                       "offered_qos_profiles": [_quality(topic)], "type_description_hash": topic.hash},
                    "message_count": self.counts[name]} for name, topic in self._topics.items()]
         return {"rosbag2_bagfile_information": {
             "version": 9, "storage_identifier": "mcap", "duration": duration, "starting_time": start,
-            "message_count": total, "topics_with_message_count": topics, "compression_format": "",
+            "message_count": self._total, "topics_with_message_count": topics, "compression_format": "",
             "compression_mode": "", "relative_file_paths": [self._file.name],
-            "files": [{"path": self._file.name, "starting_time": start, "duration": duration, "message_count": total}],
+            "files": [{"path": self._file.name, "starting_time": start, "duration": duration, "message_count": self._total}],
             "custom_data": None, "ros_distro": "jazzy"}}
 
 

@@ -12,6 +12,7 @@
 
 #include "app/text.h"
 #include "core/fixed_math.h"
+#include "core/markup.h"
 
 namespace roboss {
 namespace {
@@ -33,29 +34,6 @@ std::vector<RobotPath> finite_paths(const std::vector<RobotPath>& paths) {
     std::vector<RobotPath> finite = paths;
     for (RobotPath& path : finite) std::erase_if(path.points_W, [](const Vec3& p) { return !is_finite(p); });
     return finite;
-}
-
-std::string escaped(const std::string& text) {
-    std::string out;
-    for (char c : text) {
-        switch (c) {
-            case '&':
-                out += "&amp;";
-                break;
-            case '<':
-                out += "&lt;";
-                break;
-            case '>':
-                out += "&gt;";
-                break;
-            case '"':
-                out += "&quot;";
-                break;
-            default:
-                out += c;
-        }
-    }
-    return out;
 }
 
 double cross2(const Point& o, const Point& a, const Point& b) {
