@@ -9,10 +9,10 @@
 #include "client/held_samples.h"
 #include "physics/dynamics/kinematics.h"
 #include "physics/dynamics/motor_effort.h"
-#include "ros2/cdr.h"
 #include "ros2/robot_description.h"
 #include "ros2/sensor_messages.h"
-#include "ros2/type_description.h"
+#include "ros2_types/cdr.h"
+#include "ros2_types/type_description.h"
 
 namespace roboss::ros2 {
 

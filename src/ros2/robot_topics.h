@@ -14,18 +14,11 @@
 #include <string>
 #include <vector>
 
-#include "core/result.h"
 #include "model/robot_state.h"
+#include "ros2_types/transport.h"
 #include "sensor_kinds/sensor_spec.h"
 
 namespace roboss::ros2 {
-
-/// A type of messages, as others must know it.
-struct MessageType {
-    std::string name,  ///< "sensor_msgs/msg/LaserScan"
-        hash,          ///< RIHS01
-        definition;    ///< in the format ros2msg
-};
 
 /// A topic.
 struct Topic {

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <map>
 
-#include "ros2/cdr.h"
-#include "ros2/messages/sensor_messages.h"
+#include "ros2_types/cdr.h"
+#include "ros2_types/messages/sensor_messages.h"
 #include "sensors/test_model.h"
 
 namespace roboss::ros2 {

@@ -4,7 +4,7 @@
 #pragma once
 
 #include "model/model.h"
-#include "ros2/messages/sensor_messages.h"
+#include "ros2_types/messages/sensor_messages.h"
 #include "sensor_kinds/sensor_spec.h"
 
 namespace roboss::ros2 {

@@ -1,7 +1,7 @@
 // Interfaces of ROS 2 that sensors publish: sensor_msgs and nav_msgs. See standard_messages.h.
 #pragma once
 
-#include "ros2/messages/standard_messages.h"
+#include "ros2_types/messages/standard_messages.h"
 
 namespace roboss::ros2 {
 

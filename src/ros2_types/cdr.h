@@ -11,7 +11,7 @@
 #include <string_view>
 
 #include "core/result.h"
-#include "ros2/field_types.h"
+#include "ros2_types/field_types.h"
 
 namespace roboss::ros2 {
 

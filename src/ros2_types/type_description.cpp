@@ -1,5 +1,5 @@
 // See type_description.h.
-#include "ros2/type_description.h"
+#include "ros2_types/type_description.h"
 
 #include <openssl/evp.h>
 

@@ -1,9 +1,9 @@
 // The types of messages are those that ROS 2 knows: hashes as published with Jazzy and Kilted.
-#include "ros2/type_description.h"
+#include "ros2_types/type_description.h"
 
 #include <gtest/gtest.h>
 
-#include "ros2/messages/sensor_messages.h"
+#include "ros2_types/messages/sensor_messages.h"
 
 namespace roboss::ros2 {
 namespace {

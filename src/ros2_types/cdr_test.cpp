@@ -1,12 +1,12 @@
 // Bytes of messages: as an independent implementation writes them, back again, and what damaged ones do.
-#include "ros2/cdr.h"
+#include "ros2_types/cdr.h"
 
 #include <gtest/gtest.h>
 
 #include <random>
 
 #include "core/hex.h"
-#include "ros2/messages/sensor_messages.h"
+#include "ros2_types/messages/sensor_messages.h"
 
 namespace roboss::ros2 {
 namespace {

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "ros2/field_types.h"
+#include "ros2_types/field_types.h"
 
 namespace roboss::ros2 {
 
