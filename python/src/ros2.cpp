@@ -36,7 +36,11 @@ nb::list messages(ros2::RobotTopics& topics, const std::shared_ptr<Simulation>& 
     RunAccess& run = simulation->access();
     const auto found = without_gil({simulation}, [&] {
         return topics.messages(run.tick(), run.states(),
-                               [&](RobotId robot, std::size_t sensor) { return run.read(robot, sensor); });
+                               [&](RobotId robot, std::size_t sensor) -> Result<std::optional<Sample>> {
+                                   Result<Sample> sample = run.read(robot, sensor);
+                                   if (!sample) return sample.error();
+                                   return std::optional(std::move(sample).value());
+                               });
     });
     if (!found) raise("SensorError", found.error());
     return listed(found.value());

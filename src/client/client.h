@@ -134,6 +134,12 @@ class Client : private SensorSources {
     Reading reading(const RobotRef& robot, const SensorRef& sensor) {
         return std::get<Reading>(sample(this->robot(robot), sensor, kind_of_reading<Reading>()));
     }
+    /// A new reading of a sensor of any kind, whatever its update rate: for a program that keeps the times
+    /// itself. The sensor does not hold it.
+    /// @throws std::invalid_argument as reading().
+    Sample measure_afresh(const RobotRef& robot, const SensorRef& sensor) {
+        return measure(this->robot(robot), this->sensor(robot, sensor));
+    }
     /// reading<LaserReading>().
     LaserReading laser(const RobotRef& robot, const SensorRef& sensor) {
         return reading<LaserReading>(robot, sensor);

@@ -65,6 +65,10 @@ void StreamBus::wait(std::int64_t ms_max) {
     network_->mailboxes.wait(ms_max);
 }
 
+void StreamBus::ring() {
+    network_->mailboxes.ring();
+}
+
 void StreamBus::keep_alive(const Address& from, const Address& to, const Heartbeat& heartbeat) {
     if (network_->mailboxes.has(to)) return;  // in this process, so in the same thread
     network_->switchboard->beats().begin(from, to, encode(Envelope{from, to, heartbeat}));

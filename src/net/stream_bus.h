@@ -32,6 +32,8 @@ class StreamBus : public Bus {
     std::int64_t now_ms() override { return monotonic_ms(); }
     std::vector<Address> take_vanished(const Address& self) override;
     void wait(std::int64_t ms_max) override;
+    /// Ends wait(), or the next one, since something else has happened. Any thread may call it.
+    void ring();
     void keep_alive(const Address& from, const Address& to, const Heartbeat& heartbeat) override;
     void end_keep_alive(const Address& from) override;
     std::vector<Flow> flows() const override;

@@ -2,7 +2,6 @@
 #include "ros2/robot_topics.h"
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <map>
 
@@ -10,6 +9,7 @@
 #include "physics/dynamics/kinematics.h"
 #include "physics/dynamics/motor_effort.h"
 #include "ros2/robot_description.h"
+#include "ros2/robot_names.h"
 #include "ros2/sensor_messages.h"
 #include "ros2_types/cdr.h"
 #include "ros2_types/type_description.h"
@@ -17,40 +17,6 @@
 namespace roboss::ros2 {
 
 namespace {
-
-constexpr std::size_t kClock = 0, kTf = 1, kTfStatic = 2;  // topics of the world
-
-template <ros2::Message M>
-const MessageType& type_of() {
-    static const MessageType type = [] {
-        const TypeDescription described = describe<M>();
-        return MessageType{described.name, type_hash(described), definition_text(described)};
-    }();
-    return type;
-}
-
-/// The name with what ROS 2 allows in names: letters, digits and _, no digit in front; "::" becomes "/".
-std::string ros_name(const std::string& name) {
-    std::string result;
-    for (std::size_t i = 0; i < name.size(); ++i) {
-        const bool is_scope = name.compare(i, 2, "::") == 0;
-        if (is_scope) ++i;
-        const bool begins = result.empty() || result.back() == '/';
-        const char c = is_scope ? '/' : std::isalnum(static_cast<unsigned char>(name[i])) ? name[i] : '_';
-        if (c == '/' && begins) continue;
-        if (begins && std::isdigit(static_cast<unsigned char>(c))) result += '_';
-        result += c;
-    }
-    while (!result.empty() && result.back() == '/') result.pop_back();
-    return result.empty() ? "_" : result;
-}
-
-/// The name, or with _2, _3 ... the first that is not taken; takes it.
-std::string unique(std::string name, std::set<std::string>& taken) {
-    std::string result = name;
-    for (int number = 2; !taken.insert(result).second; ++number) result = name + "_" + std::to_string(number);
-    return result;
-}
 
 Time time_of(const Model& model, Tick tick) {
     const double seconds = static_cast<double>(tick) * model.dt_s;
@@ -111,9 +77,9 @@ RobotTopics::RobotTopics(std::shared_ptr<const Model> model) : model_(std::move(
     topics_ = {{"/clock", &type_of<Clock>(), false},
                {"/tf", &type_of<TFMessage>(), false},
                {"/tf_static", &type_of<TFMessage>(), true}};
-    std::set<std::string> names{"clock", "tf", "tf_static"}, taken;
-    for (std::size_t r = 0; r < model_->robots.size(); ++r)
-        add_robot(RobotId(r), unique(ros_name(model_->robots[r].name), names), taken);
+    std::set<std::string> taken;
+    const std::vector<std::string> names = robot_names(*model_);
+    for (std::size_t r = 0; r < names.size(); ++r) add_robot(RobotId(r), names[r], taken);
     wanted_.assign(topics_.size(), true);
 }
 
@@ -122,16 +88,16 @@ void RobotTopics::add_robot(RobotId robot, const std::string& name, std::set<std
     RobotPart part;
     std::set<std::string> frames;
     for (const Link& link : type.links)
-        part.frames.push_back(unique(name + "/" + ros_name(link.name), frames));
+        part.frames.push_back(unique_name(name + "/" + ros_name(link.name), frames));
     for (std::size_t j = 0; j < type.joints.size(); ++j)
         if (type.joints[j].nv == 1) part.joints.push_back(JointId(j));
     if (!part.joints.empty()) {
         part.joint_states = topics_.size();
         topics_.push_back(
-            {unique("/" + name + "/joint_states", taken), &type_of<JointStateMessage>(), false});
+            {unique_name("/" + name + "/joint_states", taken), &type_of<JointStateMessage>(), false});
     }
     part.name = name, part.description = topics_.size();
-    topics_.push_back({unique("/" + name + "/robot_description", taken), &type_of<String>(), true});
+    topics_.push_back({unique_name("/" + name + "/robot_description", taken), &type_of<String>(), true});
     robots_.push_back(std::move(part));
 
     // Topics that several sensors have get the sensor's name in front.
@@ -149,7 +115,7 @@ void RobotTopics::add_robot(RobotId robot, const std::string& name, std::set<std
         publish(place_of(info), nullptr, [&]<class M>(const char* suffix, const M&) {
             const bool is_named = is_camera || uses[suffix] > 1;
             const std::string topic = "/" + name + "/" + (is_named ? sensor_name + "/" : "") + suffix;
-            topics_.push_back({unique(topic, taken), &type_of<M>(), false});
+            topics_.push_back({unique_name(topic, taken), &type_of<M>(), false});
         });
         source.count = topics_.size() - source.first;
         if (source.count == 0) {
@@ -157,8 +123,8 @@ void RobotTopics::add_robot(RobotId robot, const std::string& name, std::set<std
                 left_out_.push_back(model_->robots[robot.index()].name + "." + info.spec.name);
             continue;
         }
-        source.frame = unique(robots_.back().frames[info.link.index()] + "/" + sensor_name, frames);
-        if (is_camera) source.optical_frame = unique(source.frame + "_optical_frame", frames);
+        source.frame = unique_name(robots_.back().frames[info.link.index()] + "/" + sensor_name, frames);
+        if (is_camera) source.optical_frame = unique_name(source.frame + "_optical_frame", frames);
         if (info.spec.as<WheelOdometrySpec>()) source.X_WO = to_transform(model_->robots[robot.index()].X_WR);
         sources_.push_back(std::move(source));
     }
@@ -289,12 +255,17 @@ Result<std::vector<RobotTopics::Message>> RobotTopics::messages(Tick tick, std::
             out.push_back({topic, joint_states(tick, RobotId(r), states[r])});
     for (const Source& source : sources_) {
         if (!is_due(source, tick)) continue;
-        const Result<Sample> sample = measure(source.robot, source.sensor);
+        const Result<std::optional<Sample>> sample = measure(source.robot, source.sensor);
         if (!sample) return sample.error();
-        add_readings(source, tick, sample.value(), out);
+        if (sample.value()) add_readings(source, tick, *sample.value(), out);
     }
     last_ = tick;
     return out;
+}
+
+std::int64_t RobotTopics::stamp_ns(Tick tick) const {
+    const Time stamp = time_of(*model_, tick);
+    return std::int64_t{stamp.sec} * 1'000'000'000 + stamp.nanosec;
 }
 
 }  // namespace roboss::ros2

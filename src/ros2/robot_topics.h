@@ -9,6 +9,7 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <set>
 #include <span>
 #include <string>
@@ -30,8 +31,11 @@ struct Topic {
 /// See the top of the file.
 class RobotTopics {
   public:
-    /// A reading of a sensor (RobotType::sensors) of a robot at the tick of the messages.
-    using Measure = std::function<Result<Sample>(RobotId, std::size_t)>;
+    /// A reading of a sensor (RobotType::sensors) of a robot at the tick of the messages; none: there shall
+    /// be no message.
+    using Measure = std::function<Result<std::optional<Sample>>(RobotId, std::size_t)>;
+    /// Topics of the world, in topics().
+    static constexpr std::size_t kClock = 0, kTf = 1, kTfStatic = 2;
     /// A message.
     struct Message {
         std::size_t topic = 0;  ///< number in topics()
@@ -57,6 +61,10 @@ class RobotTopics {
     /// a sample is due since the tick of the last call. An Error names a sensor that cannot measure.
     Result<std::vector<Message>> messages(Tick tick, std::span<const RobotState> states,
                                           const Measure& measure);
+    /// The run went back in time: all samples are due again.
+    void forget() { last_ = -1; }
+    /// The stamp of messages at a tick, ns.
+    std::int64_t stamp_ns(Tick tick) const;
 
   private:
     struct Source;

@@ -49,7 +49,7 @@ std::vector<RobotState> moving_states() {
     return states;
 }
 
-Result<Sample> measured(RobotId, std::size_t number) {
+Result<std::optional<Sample>> measured(RobotId, std::size_t number) {
     LaserReading laser;
     laser.samples = 3, laser.vertical_samples = 1;
     laser.ranges = {1, std::numeric_limits<double>::infinity(), 2.5};
@@ -57,9 +57,9 @@ Result<Sample> measured(RobotId, std::size_t number) {
     camera.color = Image<std::uint8_t>(1, 2, 3, 7), camera.intrinsics = {1.5, 1.6, 1, 0.5};
     SonarReading sonar;
     sonar.range = 0.5;
-    if (number == 0) return Sample(laser);
-    if (number == 3) return Sample(camera);
-    return Sample(sonar);
+    if (number == 0) return std::optional<Sample>(laser);
+    if (number == 3) return std::optional<Sample>(camera);
+    return std::optional<Sample>(sonar);
 }
 
 std::map<std::string, std::string> by_topic(const RobotTopics& topics,
@@ -169,10 +169,11 @@ TEST(RobotTopics, WhatIsNotWantedIsNotMeasured) {
     std::vector<bool> wanted(topics.topics().size(), false);
     wanted[3] = true;
     topics.select(wanted);
-    const auto messages = topics.messages(0, moving_states(), [](RobotId, std::size_t) -> Result<Sample> {
-        ADD_FAILURE() << "a sensor was measured";
-        return Error{"no", ""};
-    });
+    const auto messages =
+        topics.messages(0, moving_states(), [](RobotId, std::size_t) -> Result<std::optional<Sample>> {
+            ADD_FAILURE() << "a sensor was measured";
+            return Error{"no", ""};
+        });
     ASSERT_TRUE(messages);
     ASSERT_EQ(messages.value().size(), 1u);
     EXPECT_EQ(messages.value().front().topic, 3u);

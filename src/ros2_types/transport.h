@@ -7,6 +7,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -89,6 +90,8 @@ class Transport {
 
     /// What has arrived, in the order of its arrival; waits for the first at most so long.
     virtual std::vector<Incoming> take(std::int64_t wait_ms) = 0;
+    /// Calls `ring` from any thread when something has arrived; `ring` must not call the Transport.
+    virtual void on_arrival(std::function<void()> ring) = 0;
     /// Warnings about others, one line each, since the last call: a peer whose type has another hash, a
     /// request that cannot be read, messages that were dropped since nobody took them.
     virtual std::vector<std::string> take_notices() = 0;

@@ -13,7 +13,6 @@
 #include "client/plugin.h"
 #include "client/program_host.h"
 #include "core/error_text.h"
-#include "visuals/visual_fetch.h"
 
 namespace roboss {
 namespace {
@@ -53,7 +52,7 @@ class ClientProcess {
         if (Result<BusClientOptions> times = client_options(*program.value(), *model, name); !times)
             return member_.report_error(times.error()), kBadInput;
         auto host = std::make_unique<ProgramHost>(model, self, name, std::move(program).value());
-        see(*host);
+        host->client().set_visuals(member_.visuals());
         for (;;) {
             const std::optional<int> ended = serve(*host);
             if (ended) return *ended;
@@ -62,22 +61,11 @@ class ClientProcess {
             const auto changed = member_.fetch_model(again);
             if (!changed) return member_.exit_code();
             host = std::make_unique<ProgramHost>(changed, again, name, host->take_program());
-            see(*host);
+            host->client().set_visuals(member_.visuals());
         }
     }
 
   private:
-    /// Cameras of the program fetch the visuals when the first one is read.
-    void see(ProgramHost& host) {
-        const auto wait = [this]() -> Result<> {
-            if (interrupted()) return Error{"interrupted", "", "interrupted"};
-            if (!member_.wait()) return Error{"there is no Controller", "start it", "no-controller"};
-            return Ok{};
-        };
-        const auto new_address = [this] { return member_.new_address(Role::kClient); };
-        host.client().set_visuals(fetched_visuals({member_.bus(), new_address, wait}));
-    }
-
     /// The exit code; nullopt: the run has a new Model.
     std::optional<int> serve(ProgramHost& host) {
         std::int64_t leaving_ms = 0;

@@ -70,11 +70,15 @@ Result<LocalProcess> LocalProcess::start(const std::vector<std::string>& argumen
 LocalProcess::LocalProcess(LocalProcess&& other) noexcept
     : id_(std::exchange(other.id_, -1)),
       log_(std::exchange(other.log_, -1)),
+      read_(other.read_),
+      exit_code_(other.exit_code_),
       ended_(std::move(other.ended_)) {}
 
 LocalProcess& LocalProcess::operator=(LocalProcess&& other) noexcept {
     std::swap(id_, other.id_);  // the other one ends what this one had
     std::swap(log_, other.log_);
+    std::swap(read_, other.read_);
+    std::swap(exit_code_, other.exit_code_);
     std::swap(ended_, other.ended_);
     return *this;
 }
@@ -96,9 +100,16 @@ std::optional<std::string> LocalProcess::ended() {
     if (ended_ || waitpid(id_, &status, WNOHANG) != id_) return ended_;
     if (WIFSIGNALED(status))
         ended_ = "was killed by " + name_of_signal(WTERMSIG(status));
-    else
-        ended_ = "ended with exit code " + std::to_string(WEXITSTATUS(status));
+    else {
+        exit_code_ = WEXITSTATUS(status);
+        ended_ = "ended with exit code " + std::to_string(*exit_code_);
+    }
     return ended_;
+}
+
+std::optional<int> LocalProcess::exit_code() {
+    (void)ended();
+    return exit_code_;
 }
 
 bool LocalProcess::wait(int ms_max) {
@@ -129,6 +140,20 @@ std::string LocalProcess::last_lines(std::size_t count) const {
     std::size_t begin = text.size();
     while (count-- > 0 && begin != 0 && begin != std::string::npos) begin = text.rfind('\n', begin - 1);
     return begin == std::string::npos || begin == 0 ? text : text.substr(begin + 1);
+}
+
+std::vector<std::string> LocalProcess::new_lines() {
+    std::string text;
+    char part[kLogRead];
+    for (ssize_t got = 0;
+         (got = pread(log_, part, sizeof part, read_ + static_cast<off_t>(text.size()))) > 0;)
+        text.append(part, static_cast<std::size_t>(got));
+    std::vector<std::string> lines;
+    std::size_t begin = 0;
+    for (std::size_t end = 0; (end = text.find('\n', begin)) != std::string::npos; begin = end + 1)
+        lines.push_back(text.substr(begin, end - begin));
+    read_ += static_cast<std::int64_t>(begin);
+    return lines;
 }
 
 }  // namespace roboss

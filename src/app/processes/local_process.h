@@ -3,6 +3,7 @@
 
 #include <sys/types.h>
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -28,17 +29,23 @@ class LocalProcess {
     void kill();
     /// How it ended, as text; nullopt while it runs.
     std::optional<std::string> ended();
+    /// Its exit code; nullopt while it runs, and if a signal ended it.
+    std::optional<int> exit_code();
     /// Waits for its end, at most so long. False: it still runs.
     bool wait(int ms_max);
     /// Its state, as text: "running", "stopped ..." ...
     std::string doing() const;
     /// The end of its log, at most so many lines.
     std::string last_lines(std::size_t count) const;
+    /// The whole lines that it printed since the last call.
+    std::vector<std::string> new_lines();
 
   private:
     LocalProcess(pid_t id, int log) : id_(id), log_(log) {}
     pid_t id_ = -1;
     int log_ = -1;
+    std::int64_t read_ = 0;  // bytes of the log that new_lines() has returned
+    std::optional<int> exit_code_;
     std::optional<std::string> ended_;
 };
 

@@ -14,6 +14,7 @@
 #include "app/processes/local_process.h"
 #include "app/processes/network_options.h"
 #include "core/error_text.h"
+#include "visuals/visual_fetch.h"
 
 namespace roboss {
 namespace {
@@ -64,6 +65,15 @@ std::shared_ptr<const Model> Member::fetch_model(const Address& self) {
     }
     if (!pull.model()->ok()) return report_error(pull.model()->error()), exit_code_ = kBadInput, nullptr;
     return pull.model()->value();
+}
+
+render::VisualsOf Member::visuals() {
+    const auto wait_here = [this]() -> Result<> {
+        if (interrupted()) return Error{"interrupted", "", "interrupted"};
+        if (!wait()) return Error{"there is no Controller", "start it", "no-controller"};
+        return Ok{};
+    };
+    return fetched_visuals({*bus_, [this] { return new_address(Role::kClient); }, wait_here});
 }
 
 bool Member::wait() {

@@ -8,6 +8,7 @@
 
 #include "bus/model_pull.h"
 #include "net/stream_bus.h"
+#include "render/visuals_of.h"
 
 namespace roboss {
 
@@ -42,6 +43,8 @@ class Member {
     int exit_code() const { return exit_code_; }
     /// Reports that the run is over. The answer is the exit code.
     int end(const RunOver& end);
+    /// The world's visuals for cameras, fetched from the Controller when the first one is read.
+    render::VisualsOf visuals();
     /// Says to the Controller, and here, why this process cannot go on.
     void leave_at_once(const Error& why);
     void report(const std::string& line) const;

@@ -106,6 +106,8 @@ Result<> take_example(RunOptions& o) {
 int run(RunOptions options) {
     if (names_example(options.world))
         if (const Result<> taken = take_example(options); !taken) return print(taken.error()), kBadInput;
+    if (options.ros2.wanted && !options.ros2.face.lockstep.empty())
+        options.clients_awaited.push_back(options.ros2.face.name);
     return Run(options).go();
 }
 

@@ -28,17 +28,21 @@ constexpr std::int64_t kFarewell_ms = 3'000;        // for all processes to end 
 Result<std::unique_ptr<RunMembers>> RunMembers::gather(const RunOptions& options, std::int64_t prepared_ms) {
     std::unique_ptr<RunMembers> members(new RunMembers(options));
     members->network_ = options.network;
-    if (options.processes > 0) {
+    const bool is_private = !options.is_controller && (options.processes > 0 || options.ros2.wanted);
+    if (is_private) {
         std::random_device device;
         members->network_.simulation = fmt::format("run-{}-{:08x}", getpid(), device());
         members->network_.liveliness_ms = kOnOneComputer_ms;
+    }
+    if (options.processes > 0)
         members->patience_ms_ = kJoin_ms + std::max<std::int64_t>(prepared_ms - kLinked_ms, 0) *
                                                std::max(1, options.processes / cores());
-    }
-    if (options.processes > 0 || options.is_controller)
+    if (is_private || options.is_controller)
         if (Result<> open = members->open_network(); !open) return open.error();
     for (int i = 0; i < options.processes; ++i)
         if (Result<> started = members->start_process(); !started) return started.error();
+    if (options.ros2.wanted)
+        if (Result<> started = members->start_ros2(); !started) return started.error();
     return members;
 }
 
@@ -66,14 +70,28 @@ Result<> RunMembers::start_process() {
                              std::to_string(o_.lanes), "--patience", "10", "--quiet"});
 }
 
+/// It finds this process as Simulators do.
+Result<> RunMembers::start_ros2() {
+    std::vector<std::string> words = ros2_arguments(o_.ros2);
+    words.insert(words.end(), {"--simulation", network_.simulation, "--liveliness-ms",
+                               std::to_string(network_.liveliness_ms)});
+    if (network_.insecure) words.emplace_back("--insecure");
+    ros2_.emplace("the ROS 2 process", std::move(words));
+    return ros2_->start(monotonic_ms());
+}
+
 void RunMembers::configure(SimulationOptions& options) const {
     if (open_bus_ == nullptr) return;
+    options.controller.client_gone_ms = kClientGone_ms;
+    if (o_.processes == 0 && !o_.is_controller) {
+        options.clients_awaited = o_.clients_awaited;
+        return;
+    }
     options.simulators = static_cast<std::size_t>(o_.local);
     options.simulators_awaited = static_cast<std::size_t>(o_.processes > 0 ? o_.processes : o_.simulators);
     options.clients_awaited = o_.clients_awaited;
     options.controller.loss_ms =
         o_.processes > 0 ? kSilence_ms : std::max<std::int64_t>(kSilence_ms, network_.liveliness_ms);
-    options.controller.client_gone_ms = kClientGone_ms;
     options.controller.checkpoint_work_s = kCheckpointEvery_s;
 }
 
@@ -111,10 +129,13 @@ Result<> RunMembers::watch_start(const Simulation& simulation) {
 }
 
 Result<> RunMembers::look_after(const Simulation& simulation) {
-    if (o_.processes == 0) return Ok{};
+    if (o_.processes == 0 && !ros2_) return Ok{};
     const std::int64_t now = monotonic_ms();  // it asks the kernel about every process: not in every turn
     if (now - looked_ms_ < kLook_ms) return Ok{};
     looked_ms_ = now;
+    if (ros2_)
+        if (Result<> looked = ros2_->look(now); !looked) return looked;
+    if (o_.processes == 0) return Ok{};
     if (processes_.starting()) return watch_start(simulation);
     for (std::string& line : processes_.take_ended()) notices_.push_back(std::move(line));
     if (processes_.count() > 0) return Ok{};
@@ -128,6 +149,8 @@ Result<> RunMembers::look_after(const Simulation& simulation) {
 std::vector<std::string> RunMembers::take_notices() {
     if (open_bus_ != nullptr)
         for (std::string& line : open_bus_->take_notices()) notices_.push_back(std::move(line));
+    if (ros2_)
+        for (std::string& line : ros2_->take_notices()) notices_.push_back(std::move(line));
     return std::exchange(notices_, {});
 }
 
@@ -136,6 +159,7 @@ void RunMembers::end(const RunOver& over, bool abandoned) {
     open_bus_->say_farewell(over);
     if (!abandoned) open_bus_->flush(1'000);
     processes_.await_exit(abandoned ? 0 : kFarewell_ms);
+    if (ros2_) ros2_->await_exit(abandoned ? 0 : kFarewell_ms);
 }
 
 }  // namespace roboss

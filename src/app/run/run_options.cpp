@@ -272,6 +272,17 @@ void add_common_options(CLI::App& command, RunOptions& o) {
     add_watch_options(command, o, ViewerDefault::kOn);
 }
 
+/// The nodes of ROS 2 that a run is shown to.
+void add_ros2_options(CLI::App& command, RunOptions& o) {
+    CLI::Option* ros2 = command.add_flag(
+        "--ros2", o.ros2.wanted,
+        "show the run to ROS 2 nodes: sensors as topics, /cmd_vel ... as commands (docs/ros2.md)");
+    add_ros2_options(command, o.ros2, "--ros2-");
+    for (CLI::Option* option : command.get_options())
+        if (option->get_name().starts_with("--ros2-")) option->needs(ros2);
+    name_new_options(command, "ROS 2");
+}
+
 /// Of runs that no other computer joins.
 void add_name_option(CLI::App& command, RunOptions& o) {
     command.add_option_function<std::string>(
@@ -288,6 +299,7 @@ void add_name_option(CLI::App& command, RunOptions& o) {
 void add_run_options(CLI::App& command, RunOptions& o) {
     command.footer(fmt::format("{}\n\n{}", kRunOptionsFooter, kExitCodes));
     add_common_options(command, o);
+    add_ros2_options(command, o);
     add_name_option(command, o);
     CLI::Option* simulators =
         command
@@ -326,6 +338,7 @@ void add_controller_options(CLI::App& command, RunOptions& o) {
     o.is_controller = true;
     command.footer(fmt::format("{}\n\n{}", kControllerFooter, kExitCodes));
     add_common_options(command, o);
+    add_ros2_options(command, o);
     command
         .add_option(
             "--simulators", o.simulators,

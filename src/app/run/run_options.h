@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "app/dataset/dataset_options.h"
+#include "app/ros2/ros2_options.h"
 #include "app/run/sense.h"
 #include "app/viewer/snapshot.h"
 #include "app/viewer/viewer.h"
@@ -44,6 +45,7 @@ struct RunOptions {
     bool is_controller = false;  // `roboss controller`: Simulators join over the network
     std::vector<std::string> clients_awaited;
     NetOptions network;
+    Ros2Options ros2;
     bool merge_islands = false;
     std::vector<std::string> clients;  // control programs, shared libraries
     std::string orders;                // JSON lines

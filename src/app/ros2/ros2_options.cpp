@@ -1,0 +1,112 @@
+// See ros2_options.h.
+#include "app/ros2/ros2_options.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cstdlib>
+#include <sstream>
+
+#include "app/commands/numbers.h"
+
+namespace roboss {
+namespace {
+
+constexpr std::uint32_t kDomainMost = 232;  // ports of greater ones do not exist
+
+std::string or_environment(const std::string& given, const char* name) {
+    const char* value = std::getenv(name);
+    return !given.empty() || value == nullptr ? given : value;
+}
+
+Result<std::uint32_t> domain_of(const std::string& text) {
+    std::uint32_t domain = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), domain);
+    if (!text.empty() && (error != std::errc() || end != text.data() + text.size() || domain > kDomainMost))
+        return Error{"the domain '" + text + "' is no number from 0 to " + std::to_string(kDomainMost),
+                     "correct --domain or ROS_DOMAIN_ID", "bad-domain"};
+    return domain;
+}
+
+Result<ros2::TransportOptions::Reach> reach_of(std::string text) {
+    using Reach = ros2::TransportOptions::Reach;
+    std::ranges::transform(text, text.begin(), [](unsigned char c) { return std::tolower(c); });
+    if (text.empty() || text == "localhost" || text == "system_default") return Reach::kLocalhost;
+    if (text == "subnet") return Reach::kSubnet;
+    if (text == "off") return Reach::kOff;
+    return Error{"discovery cannot reach '" + text + "'",
+                 "give off, localhost or subnet (--reach, ROS_AUTOMATIC_DISCOVERY_RANGE)", "bad-reach"};
+}
+
+/// "localhost" where ROS_LOCALHOST_ONLY, which came before ROS_AUTOMATIC_DISCOVERY_RANGE, says so.
+std::string reach_given(const Ros2Options& o) {
+    if (!o.reach.empty()) return o.reach;
+    if (or_environment("", "ROS_LOCALHOST_ONLY") == "1") return "localhost";
+    return or_environment("", "ROS_AUTOMATIC_DISCOVERY_RANGE");
+}
+
+}  // namespace
+
+void add_ros2_options(CLI::App& command, Ros2Options& o, const std::string& prefix) {
+    command
+        .add_option(prefix + "lockstep", o.face.lockstep,
+                    "the world waits in each period for a message of this topic, e.g. '/*/cmd_vel' (may be "
+                    "repeated): the same nodes then give the same run, to the last bit")
+        ->type_name("TOPIC");
+    command
+        .add_option(prefix + "period", o.face.period_s,
+                    "simulated time between two looks at the world, s (default: that of the fastest sensor, "
+                    "at most 0.02)")
+        ->check(positive_number());
+    command.add_flag(prefix + "stamped", o.face.stamped,
+                     "velocity commands are geometry_msgs/TwistStamped, not Twist");
+    command.add_option(prefix + "distro", o.distro, "ROS 2 of the other nodes")
+        ->check(CLI::IsMember({"humble", "jazzy", "kilted", "lyrical"}))
+        ->capture_default_str();
+    command.add_option(prefix + "domain", o.domain, "ROS domain, 0 to 232 (default: ROS_DOMAIN_ID, else 0)");
+    command
+        .add_option(prefix + "reach", o.reach,
+                    "how far discovery reaches: off, localhost or subnet, for nodes on other computers "
+                    "(default: ROS_AUTOMATIC_DISCOVERY_RANGE, else localhost)")
+        ->check(CLI::IsMember({"off", "localhost", "subnet"}));
+    command.add_option(prefix + "peer", o.peers,
+                       "a host where other nodes are (may be repeated; default: ROS_STATIC_PEERS)");
+    command.add_option(prefix + "discovery-server", o.discovery_server,
+                       "HOST:PORT;... of discovery servers (default: ROS_DISCOVERY_SERVER)");
+}
+
+std::vector<std::string> ros2_arguments(const Ros2Options& o) {
+    std::vector<std::string> words{"roboss", "ros2", "--distro", o.distro};
+    const auto add = [&](const char* option, const std::string& value) {
+        if (!value.empty()) words.insert(words.end(), {option, value});
+    };
+    for (const std::string& topic : o.face.lockstep) add("--lockstep", topic);
+    for (const std::string& peer : o.peers) add("--peer", peer);
+    if (o.face.period_s > 0) add("--period", fmt::format("{}", o.face.period_s));
+    if (o.face.stamped) words.emplace_back("--stamped");
+    add("--domain", o.domain);
+    add("--reach", o.reach);
+    add("--discovery-server", o.discovery_server);
+    return words;
+}
+
+Result<ros2::TransportOptions> transport_options(const Ros2Options& o) {
+    const Result<std::uint32_t> domain = domain_of(or_environment(o.domain, "ROS_DOMAIN_ID"));
+    if (!domain) return domain.error();
+    const auto reach = reach_of(reach_given(o));
+    if (!reach) return reach.error();
+    ros2::TransportOptions options;
+    options.domain = domain.value(), options.reach = reach.value();
+    options.peers = o.peers;
+    if (options.peers.empty()) {
+        std::istringstream listed(or_environment("", "ROS_STATIC_PEERS"));
+        for (std::string peer; std::getline(listed, peer, ';');)
+            if (!peer.empty()) options.peers.push_back(peer);
+    }
+    options.discovery_server = or_environment(o.discovery_server, "ROS_DISCOVERY_SERVER");
+    options.has_long_gids = o.distro == "humble";
+    return options;
+}
+
+}  // namespace roboss

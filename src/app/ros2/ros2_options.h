@@ -1,0 +1,29 @@
+// The options by which a run is shown to ROS 2, of `roboss ros2` and, with --ros2- in front, of `roboss run`.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <string>
+#include <vector>
+
+#include "core/result.h"
+#include "ros2/face.h"
+#include "ros2_types/transport.h"
+
+namespace roboss {
+
+struct Ros2Options {
+    bool wanted = false;  // of a run: --ros2
+    ros2::FaceOptions face;
+    std::string distro = "jazzy";
+    std::string domain, reach, discovery_server;  // as ROS_DOMAIN_ID ... say it; empty: not given
+    std::vector<std::string> peers;
+};
+
+/// `prefix`: "--" or "--ros2-".
+void add_ros2_options(CLI::App& command, Ros2Options& options, const std::string& prefix);
+/// `roboss ros2` with the same options.
+std::vector<std::string> ros2_arguments(const Ros2Options& options);
+/// For the transport; what is not given comes from the variables of the environment that ROS 2 reads.
+Result<ros2::TransportOptions> transport_options(const Ros2Options& options);
+
+}  // namespace roboss

@@ -1,0 +1,197 @@
+// See face.h. What it shows and takes: the other half, the entities of the transport, is in face_topics.cpp.
+#include "ros2/face.h"
+
+#include <algorithm>
+#include <cmath>
+#include <exception>
+#include <utility>
+
+#include "ros2_types/cdr.h"
+#include "ros2_types/messages/command_messages.h"
+
+namespace roboss::ros2 {
+
+namespace {
+
+constexpr std::int64_t kTellWaiting_ms = 3'000;
+constexpr std::int64_t kConfirm_ms = 200;  // a subscriber that takes longer is stopped or gone
+constexpr std::size_t kNoticesMost = 200;  // different texts
+constexpr double kUsualPeriod_s = 0.02;
+
+/// The stamp of a stamped message, ns; none: it has no stamp, or 0.
+std::optional<std::int64_t> stamp_ns(CommandTopic::Kind kind, std::string_view cdr) {
+    if (kind != CommandTopic::Kind::kTwistStamped) return {};
+    const Result<TwistStamped> message = from_cdr<TwistStamped>(cdr);
+    if (!message) return {};
+    const Time& stamp = message.value().header.stamp;
+    const std::int64_t ns = std::int64_t{stamp.sec} * 1'000'000'000 + stamp.nanosec;
+    return ns == 0 ? std::nullopt : std::optional(ns);
+}
+
+}  // namespace
+
+Tick usual_period(const Model& model) {
+    double period_s = kUsualPeriod_s;
+    for (const RobotType& type : model.types)
+        for (const SensorInfo& sensor : type.sensors)
+            if (sensor.spec.update_rate_hz > 0) period_s = std::min(period_s, 1 / sensor.spec.update_rate_hz);
+    return std::max<Tick>(1, static_cast<Tick>(std::floor(period_s / model.dt_s + 1e-9)));
+}
+
+Face::Face(Transport& transport, FaceOptions options) : transport_(transport), options_(std::move(options)) {
+    world_node_ = transport_.add_node("/", "roboss");
+}
+
+Face::~Face() = default;
+
+Result<> Face::show(std::shared_ptr<const Model> model, const Address& self) {
+    model_ = std::move(model);
+    BusClientOptions times;
+    times.name = options_.name;
+    times.period = options_.period_s > 0
+                       ? std::max<Tick>(1, static_cast<Tick>(std::llround(options_.period_s / model_->dt_s)))
+                       : usual_period(*model_);
+    times.latency = times.period;
+    times.synchronous = !options_.lockstep.empty();
+    times.observer = options_.lockstep.empty();
+    client_ = std::make_unique<BusClient>(model_, self, times);
+    topics_ = std::make_unique<RobotTopics>(model_);
+    commands_ = std::make_unique<RobotCommands>(model_, options_.stamped);
+    lockstep_.reset();
+    if (times.synchronous) {
+        Result<Lockstep> lockstep = Lockstep::of(options_.lockstep, *commands_);
+        if (!lockstep) return lockstep.error();
+        lockstep_ = std::move(lockstep).value();
+    }
+    shown_ = -1, welcomes_ = 0;
+    broken_.clear();
+    open_nodes();
+    open_topics();
+    open_commands();
+    transport_.announce();
+    return Ok{};
+}
+
+void Face::advance(Bus& bus) {
+    client_->advance(bus);
+    take_messages(bus);
+    if (client_->observing()) observe(bus);
+    for (const std::string& line : transport_.take_notices()) notice(line);
+    for (const std::string& line : client_->take_refusals()) notice(line);
+}
+
+void Face::take_messages(Bus& bus) {
+    bool ordered = false;
+    for (Incoming& message : transport_.take(0)) {
+        const auto command = command_of_.find(message.entity);
+        if (command == command_of_.end()) continue;  // of a topic that was closed
+        const CommandTopic& topic = commands_->topics()[command->second];
+        if (!lockstep_) {
+            obey(command->second, message.bytes);
+            ordered = true;
+        } else if (const auto stamp = stamp_ns(topic.kind, message.bytes);
+                   !lockstep_->take(command->second, std::move(message.bytes), stamp)) {
+            notice(topic.name + ": its messages have no effect, for the world is in lockstep without it");
+        }
+    }
+    if (ordered && client_->tick() >= 0) client_->send(bus, client_->tick());
+}
+
+void Face::obey(std::size_t topic, std::string_view cdr) {
+    const Result<std::vector<Action>> orders = commands_->actions(topic, cdr);
+    if (!orders) return notice(orders.error().text());
+    for (const Action& action : orders.value())
+        (void)client_->order(commands_->topics()[topic].robot, action);  // take_refusals() has its Error
+}
+
+void Face::observe(Bus& bus) {
+    const bool is_new = client_->tick() != shown_ || client_->welcomes() != welcomes_;
+    if (is_new) {
+        if (client_->tick() < shown_ || shown_ < 0) {  // the beginning, or the run went back
+            topics_->forget();
+            publish_latched();
+        }
+        shown_ = client_->tick(), welcomes_ = client_->welcomes();
+        if (lockstep_) lockstep_->begin(topics_->stamp_ns(shown_));
+        publish_observed();
+        waiting_since_ms_ = bus.now_ms(), waiting_told_ = false;
+    }
+    if (lockstep_) return answer_when_complete(bus);
+    client_->answer(bus);
+}
+
+void Face::answer_when_complete(Bus& bus) {
+    if (!lockstep_->is_complete()) return report_waiting(bus.now_ms());
+    for (const Lockstep::Accepted& message : lockstep_->accepted()) obey(message.topic, message.bytes);
+    client_->answer(bus);
+}
+
+void Face::report_waiting(std::int64_t now_ms) {
+    if (now_ms - waiting_since_ms_ < kTellWaiting_ms || std::exchange(waiting_told_, true)) return;
+    const std::vector<std::size_t> missing = lockstep_->missing();
+    std::string text = "the world waits for a message on " + commands_->topics()[missing.front()].name;
+    if (missing.size() > 1) text += " and " + std::to_string(missing.size() - 1) + " more topics";
+    notices_.push_back(text + " [lockstep]");
+}
+
+void Face::publish_latched() {
+    for (const RobotTopics::Message& message : topics_->latched(std::max<Tick>(client_->tick(), 0)))
+        if (publisher_of_[message.topic] != 0)
+            transport_.publish(publisher_of_[message.topic], message.bytes);
+}
+
+std::vector<bool> Face::wanted() const {
+    std::vector<bool> wanted(publisher_of_.size());
+    for (std::size_t t = 0; t < wanted.size(); ++t)
+        wanted[t] = publisher_of_[t] != 0 && transport_.subscribers(publisher_of_[t]) > 0;
+    return wanted;
+}
+
+void Face::publish_observed() {
+    topics_->select(wanted());
+    const Result<std::vector<RobotTopics::Message>> messages =
+        topics_->messages(client_->tick(), client_->states(),
+                          [this](RobotId robot, std::size_t sensor) { return measure(robot, sensor); });
+    std::vector<EntityId> sent;
+    for (const RobotTopics::Message& message : messages.value()) {
+        if (message.topic == RobotTopics::kClock)
+            continue;  // the last, for it says that the others are there
+        transport_.publish(publisher_of_[message.topic], message.bytes);
+        sent.push_back(publisher_of_[message.topic]);
+    }
+    if (lockstep_) confirm(sent);
+    for (const RobotTopics::Message& message : messages.value())
+        if (message.topic == RobotTopics::kClock)
+            transport_.publish(publisher_of_[message.topic], message.bytes);
+}
+
+/// Waits until subscribers have what was sent, so that a node that hears the clock has heard its sensors.
+void Face::confirm(const std::vector<EntityId>& sent) {
+    for (const EntityId publisher : sent)
+        if (!transport_.await_confirmed(publisher, kConfirm_ms))
+            return notice("a subscriber does not confirm messages; the clock goes on without it [lockstep]");
+}
+
+/// Nothing where the sensor cannot measure; that is told once.
+Result<std::optional<Sample>> Face::measure(RobotId robot, std::size_t sensor) {
+    const std::pair key{robot.index(), sensor};
+    if (broken_.contains(key)) return std::optional<Sample>{};
+    try {
+        return std::optional(client_->measure_afresh(robot, sensor));
+    } catch (const std::exception& why) {
+        broken_.insert(key);
+        const RobotType& type = model_->type_of(robot);
+        notice(model_->robots[robot.index()].name + "." + type.sensors[sensor].spec.name + ": " + why.what());
+        return std::optional<Sample>{};
+    }
+}
+
+void Face::notice(const std::string& line) {
+    if (told_.size() < kNoticesMost && told_.insert(line).second) notices_.push_back(line);
+}
+
+std::vector<std::string> Face::take_notices() {
+    return std::exchange(notices_, {});
+}
+
+}  // namespace roboss::ros2

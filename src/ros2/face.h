@@ -1,0 +1,107 @@
+// Face: a run as nodes of ROS 2 see it. It is an ordinary Client: it shows the robots' sensors as topics and
+// gives the orders that nodes send. What nobody subscribes to is neither computed nor sent, but for latched
+// topics.
+//
+// The world is the node "/roboss"; each robot has a node "robot" in its namespace: "/car_3/robot".
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <memory>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "client/bus_client.h"
+#include "ros2/lockstep.h"
+#include "ros2/robot_commands.h"
+#include "ros2/robot_topics.h"
+#include "ros2_types/transport.h"
+
+namespace roboss::ros2 {
+
+/// How a Face shows a run.
+struct FaceOptions {
+    std::string name = "ros2";  ///< of the Client
+    double period_s = 0;        ///< between two looks at the world; 0: that of the fastest sensor
+    bool stamped = false;       ///< velocities are TwistStamped
+    /// The world waits for a message of each of these topics in each period; empty: it waits for nobody.
+    std::vector<std::string> lockstep;
+};
+
+/// See the top of the file.
+class Face {
+  public:
+    /// `transport` outlives it.
+    Face(Transport& transport, FaceOptions options);
+    ~Face();
+
+    /// Shows this world from now on; topics that the world before had, too, stay as they are. `self`: a new
+    /// address. An Error: a lockstep topic is none of this world.
+    Result<> show(std::shared_ptr<const Model> model, const Address& self);
+    /// Cameras render these visuals.
+    void set_visuals(const render::VisualsOf& visuals) { client_->set_visuals(visuals); }
+    /// A turn: takes what arrived from both sides, and shows what is new. Waits only for confirmations, in
+    /// lockstep.
+    void advance(Bus& bus);
+    /// Warnings and refusals since the last call, one line each.
+    std::vector<std::string> take_notices();
+    /// The Client that it is.
+    BusClient& client() { return *client_; }
+
+  private:
+    struct Endpoint {
+        EntityId id = 0;
+        std::string type;
+    };
+    using Endpoints = std::map<std::string, Endpoint>;  // by topic
+
+    void open_nodes();
+    void open_topics();
+    void open_commands();
+    EntityId node_of(const std::string& topic) const;
+    Result<> open(Endpoints& before, Endpoints& now, const std::string& topic, const MessageType& type,
+                  const std::function<Result<EntityId>(EntityId node)>& add);
+    void close(const Endpoints& endpoints);
+
+    void take_messages(Bus& bus);
+    void obey(std::size_t topic, std::string_view cdr);
+    void observe(Bus& bus);
+    void publish_latched();
+    void publish_observed();
+    void confirm(const std::vector<EntityId>& sent);
+    std::vector<bool> wanted() const;
+    Result<std::optional<Sample>> measure(RobotId robot, std::size_t sensor);
+    void answer_when_complete(Bus& bus);
+    void report_waiting(std::int64_t now_ms);
+    void notice(const std::string& line);
+
+    Transport& transport_;
+    FaceOptions options_;
+    std::shared_ptr<const Model> model_;
+    std::unique_ptr<BusClient> client_;
+    std::unique_ptr<RobotTopics> topics_;
+    std::unique_ptr<RobotCommands> commands_;
+    std::optional<Lockstep> lockstep_;
+
+    EntityId world_node_ = 0;
+    std::map<std::string, EntityId> nodes_;  // of robots, by namespace without "/"
+    Endpoints publishers_, subscriptions_;
+    std::vector<EntityId> publisher_of_;                    // of topics_->topics(); 0: it could not be made
+    std::map<EntityId, std::size_t> command_of_;            // in commands_->topics()
+    std::set<std::pair<std::size_t, std::size_t>> broken_;  // robot and sensor that could not measure
+
+    Tick shown_ = -1;           // the observation whose sensors were published last
+    std::size_t welcomes_ = 0;  // of the Client, when shown_ was set
+    std::int64_t waiting_since_ms_ = 0;
+    bool waiting_told_ = false;
+    std::set<std::string> told_;  // notices that were given
+    std::vector<std::string> notices_;
+};
+
+/// Between two looks at a world, in ticks: the shortest interval of its sensors, no more than 20 ms.
+Tick usual_period(const Model& model);
+
+}  // namespace roboss::ros2

@@ -1,0 +1,222 @@
+// See robot_commands.h.
+#include "ros2/robot_commands.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <set>
+#include <utility>
+
+#include "ros2/robot_names.h"
+#include "ros2_types/cdr.h"
+#include "ros2_types/messages/command_messages.h"
+
+namespace roboss::ros2 {
+
+namespace {
+
+using Kind = CommandTopic::Kind;
+
+bool is_velocity(const Channel& channel) {
+    return channel.values.size() == 6 && channel.values.front().name == "linear_x";
+}
+bool is_pose(const Channel& channel) {
+    return channel.values.size() == 3 && channel.values[0].name == "x" && channel.values[2].name == "yaw";
+}
+bool is_trajectory(const Channel& channel) {
+    return channel.is_list && channel.values.size() > 1 && channel.values.front().name == "time" &&
+           channel.values[1].name.starts_with("position/");
+}
+bool is_switch(const ChannelValue& value) {
+    static constexpr std::array kNames{"enable", "on", "pause"};
+    return value.unit.empty() && std::ranges::find(kNames, value.name) != kNames.end();
+}
+
+std::pair<Kind, const MessageType*> message_of(const Channel& channel, bool stamped) {
+    if (is_trajectory(channel)) return {Kind::kTrajectory, &type_of<JointTrajectory>()};
+    if (channel.is_list) return {Kind::kNumbers, &type_of<Float64MultiArray>()};
+    if (channel.values.empty()) return {Kind::kSignal, &type_of<Empty>()};
+    if (is_velocity(channel) && stamped) return {Kind::kTwistStamped, &type_of<TwistStamped>()};
+    if (is_velocity(channel)) return {Kind::kTwist, &type_of<TwistMessage>()};
+    if (is_pose(channel)) return {Kind::kPose, &type_of<PoseStamped>()};
+    if (channel.values.size() > 1) return {Kind::kNumbers, &type_of<Float64MultiArray>()};
+    if (!channel.values.front().words.empty()) return {Kind::kText, &type_of<String>()};
+    if (is_switch(channel.values.front())) return {Kind::kSwitch, &type_of<Bool>()};
+    return {Kind::kNumber, &type_of<Float64>()};
+}
+
+std::vector<double> values_of(const TwistMessage& twist) {
+    return {twist.linear.x,  twist.linear.y,  twist.linear.z,
+            twist.angular.x, twist.angular.y, twist.angular.z};
+}
+
+/// The heading of a pose about the vertical, rad.
+double heading(const Quaternion& q) {
+    return std::atan2(2 * (q.w * q.z + q.x * q.y), 1 - 2 * (q.y * q.y + q.z * q.z));
+}
+
+Error wrong(const std::string& what, const std::string& remedy) {
+    return {what, remedy, "bad-message"};
+}
+
+/// The number of a word of a command, from 1.
+Result<std::vector<double>> word(const ChannelValue& value, const std::string& text) {
+    const auto at = std::ranges::find(value.words, text);
+    if (at != value.words.end())
+        return std::vector<double>{1.0 + static_cast<double>(at - value.words.begin())};
+    std::string all;
+    for (const std::string& each : value.words) all += (all.empty() ? "" : ", ") + each;
+    return wrong("there is no such word", "send one of: " + all);
+}
+
+/// Where the joint of each part of a channel's row stands in the message.
+Result<std::vector<std::size_t>> places(const Channel& channel, const std::vector<std::string>& names) {
+    std::vector<std::size_t> result;
+    for (std::size_t v = 1; v + 2 < channel.values.size(); v += 3) {
+        const std::string joint = channel.values[v].name.substr(channel.values[v].name.find('/') + 1);
+        const auto at = std::ranges::find(names, joint);
+        if (at == names.end())
+            return wrong("it does not name the joint '" + joint + "'", "name all joints of the controller");
+        result.push_back(static_cast<std::size_t>(at - names.begin()));
+    }
+    return result;
+}
+
+/// Rows of [time, then position, velocity, effort of each joint], as on-board controllers take them.
+Result<std::vector<double>> rows(const Channel& channel, const JointTrajectory& trajectory) {
+    const Result<std::vector<std::size_t>> joints = places(channel, trajectory.joint_names);
+    if (!joints) return joints.error();
+    std::vector<double> rows;
+    double last_s = -1;
+    for (const JointTrajectoryPoint& point : trajectory.points) {
+        const double time_s = point.time_from_start.sec + 1e-9 * point.time_from_start.nanosec;
+        if (time_s <= last_s)
+            return wrong("its times do not ascend", "let each point be later than the last");
+        last_s = time_s;
+        rows.push_back(time_s);
+        if (point.positions.size() != trajectory.joint_names.size())
+            return wrong("a point has not one position for each joint", "give all positions");
+        const auto at = [](const std::vector<double>& all, std::size_t joint) {
+            return joint < all.size() ? all[joint] : 0;
+        };
+        for (const std::size_t joint : joints.value()) {
+            rows.push_back(point.positions[joint]);
+            rows.push_back(at(point.velocities, joint));
+            rows.push_back(at(point.effort, joint));
+        }
+    }
+    return rows;
+}
+
+/// The values that `convert` makes of a message of this type.
+template <Message M, class Convert>
+Result<std::vector<double>> read(std::string_view cdr, Convert convert) {
+    const Result<M> message = from_cdr<M>(cdr);
+    if (!message) return message.error();
+    return convert(message.value());
+}
+
+}  // namespace
+
+std::vector<JointId> driven_joints(const RobotType& type) {
+    std::set<std::size_t> followers;
+    for (const CoordinateCoupling& coupling : type.couplings) followers.insert(coupling.joint.index());
+    std::vector<JointId> joints;
+    for (std::size_t j = 0; j < type.joints.size(); ++j) {
+        const Joint& joint = type.joints[j];
+        if (joint.nv != 1 || joint.loop >= 0 || followers.contains(j)) continue;
+        const auto dof = static_cast<std::size_t>(joint.v_index - type.base_nv());
+        if (type.dofs[dof].max_effort > 0) joints.push_back(JointId(j));
+    }
+    return joints;
+}
+
+RobotCommands::RobotCommands(std::shared_ptr<const Model> model, bool stamped) : model_(std::move(model)) {
+    const std::vector<std::string> names = robot_names(*model_);
+    for (std::size_t r = 0; r < names.size(); ++r) add_robot(RobotId(r), "/" + names[r] + "/", stamped);
+}
+
+void RobotCommands::add_robot(RobotId robot, const std::string& space, bool stamped) {
+    const RobotType& type = model_->type_of(robot);
+    std::set<std::string> taken;
+    for (std::size_t c = 0; c < type.channels.size(); ++c) {
+        const Channel& channel = type.channels[c].channel;
+        const auto [kind, message] = message_of(channel, stamped);
+        topics_.push_back({unique_name(space + ros_name(channel.name), taken),
+                           message,
+                           kind,
+                           robot,
+                           static_cast<std::uint32_t>(c),
+                           {}});
+    }
+    if (!type.channels.empty() || driven_joints(type).empty()) return;
+    static constexpr std::array<std::pair<const char*, MotorMode>, 3> kControllers{
+        {{"position_controller/commands", MotorMode::kPosition},
+         {"velocity_controller/commands", MotorMode::kVelocity},
+         {"effort_controller/commands", MotorMode::kEffort}}};
+    for (const auto& [name, mode] : kControllers)
+        topics_.push_back({space + name, &type_of<Float64MultiArray>(), Kind::kSetpoints, robot, 0, mode});
+}
+
+Result<std::vector<Action>> RobotCommands::actions(std::size_t number, std::string_view cdr) const {
+    const CommandTopic& topic = topics_[number];
+    const auto refusal = [&](const Error& why) {
+        return Error{topic.name + ": " + why.message, why.remedy, why.code};
+    };
+    if (topic.kind == Kind::kSetpoints) {
+        Result<std::vector<Action>> orders = setpoints(topic, cdr);
+        if (!orders) return refusal(orders.error());
+        return orders;
+    }
+    Result<std::vector<double>> found = values(topic, cdr);
+    if (!found) return refusal(found.error());
+    return std::vector<Action>{Command{topic.channel, std::move(found).value()}};
+}
+
+Result<std::vector<double>> RobotCommands::values(const CommandTopic& topic, std::string_view cdr) const {
+    using Values = Result<std::vector<double>>;
+    const Channel& channel = model_->type_of(topic.robot).channels[topic.channel].channel;
+    switch (topic.kind) {
+        case Kind::kTwist:
+            return read<TwistMessage>(cdr, [](const auto& m) -> Values { return values_of(m); });
+        case Kind::kTwistStamped:
+            return read<TwistStamped>(cdr, [](const auto& m) -> Values { return values_of(m.twist); });
+        case Kind::kNumber:
+            return read<Float64>(cdr, [](const auto& m) -> Values { return std::vector{m.data}; });
+        case Kind::kSwitch:
+            return read<Bool>(cdr, [](const auto& m) -> Values { return std::vector{m.data ? 1.0 : 0.0}; });
+        case Kind::kText:
+            return read<String>(cdr, [&](const auto& m) { return word(channel.values.front(), m.data); });
+        case Kind::kNumbers:
+            return read<Float64MultiArray>(cdr, [](const auto& m) -> Values { return m.data; });
+        case Kind::kPose:
+            return read<PoseStamped>(cdr, [](const auto& m) -> Values {
+                return std::vector{m.pose.position.x, m.pose.position.y, heading(m.pose.orientation)};
+            });
+        case Kind::kTrajectory:
+            return read<JointTrajectory>(cdr, [&](const auto& m) { return rows(channel, m); });
+        case Kind::kSignal:
+        case Kind::kSetpoints:
+            break;
+    }
+    return std::vector<double>{};
+}
+
+Result<std::vector<Action>> RobotCommands::setpoints(const CommandTopic& topic, std::string_view cdr) const {
+    const Result<Float64MultiArray> message = from_cdr<Float64MultiArray>(cdr);
+    if (!message) return message.error();
+    const std::vector<JointId> joints = driven_joints(model_->type_of(topic.robot));
+    if (message.value().data.size() != joints.size()) {
+        std::string names;
+        for (const JointId joint : joints)
+            names += (names.empty() ? "" : ", ") + model_->type_of(topic.robot).joints[joint.index()].name;
+        return wrong("it has " + std::to_string(message.value().data.size()) + " numbers",
+                     "send one for each of: " + names);
+    }
+    std::vector<Action> orders;
+    for (std::size_t j = 0; j < joints.size(); ++j)
+        orders.push_back(SetJoint{joints[j], 0, topic.mode, message.value().data[j], -1});
+    return orders;
+}
+
+}  // namespace roboss::ros2

@@ -1,0 +1,70 @@
+// RobotCommands: the topics by which ROS 2 nodes drive robots, and the orders that their messages stand for.
+//
+// A robot takes each command of its on-board controllers (RobotType::channels) in its namespace:
+// "/car_3/cmd_vel". The message follows from the values of the command: Twist (or TwistStamped) for a
+// velocity, Float64, Bool, String, Float64MultiArray, PoseStamped, JointTrajectory, Empty. A robot without
+// on-board controllers takes the setpoints of its joints as those of ros2_control do:
+// "/arm/position_controller/commands".
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/result.h"
+#include "model/order.h"
+#include "ros2_types/message_type.h"
+
+namespace roboss::ros2 {
+
+/// A topic by which a robot is driven.
+struct CommandTopic {
+    /// What its messages are, and what they stand for.
+    enum class Kind {
+        kTwist,         ///< a velocity
+        kTwistStamped,  ///< a velocity and the time of what it answers to
+        kNumber,        ///< the only value of a command
+        kSwitch,        ///< the same, true or false
+        kText,          ///< the same, one of its words
+        kNumbers,       ///< all values of a command, or a list
+        kPose,          ///< a place on the ground
+        kTrajectory,    ///< points of joints
+        kSignal,        ///< a command without values
+        kSetpoints      ///< one for each joint
+    };
+    std::string name;                       ///< "/car_3/cmd_vel"
+    const MessageType* type = nullptr;      ///< of its messages
+    Kind kind = Kind::kNumbers;             ///< of the messages
+    RobotId robot;                          ///< that it drives
+    std::uint32_t channel = 0;              ///< the command, in RobotType::channels; not of setpoints
+    MotorMode mode = MotorMode::kVelocity;  ///< of setpoints
+};
+
+/// See the top of the file.
+class RobotCommands {
+  public:
+    /// Collects the topics of all robots. `stamped`: velocities are TwistStamped.
+    RobotCommands(std::shared_ptr<const Model> model, bool stamped);
+
+    /// All topics, by robot.
+    const std::vector<CommandTopic>& topics() const { return topics_; }
+    /// The orders that a message of topics()[topic] asks its robot for. An Error names the topic and what is
+    /// wrong with the message.
+    Result<std::vector<Action>> actions(std::size_t topic, std::string_view cdr) const;
+
+  private:
+    void add_robot(RobotId robot, const std::string& space, bool stamped);
+    Result<std::vector<double>> values(const CommandTopic& topic, std::string_view cdr) const;
+    Result<std::vector<Action>> setpoints(const CommandTopic& topic, std::string_view cdr) const;
+
+    std::shared_ptr<const Model> model_;
+    std::vector<CommandTopic> topics_;
+};
+
+/// Joints of one axis that motors move, in the order of their setpoints.
+std::vector<JointId> driven_joints(const RobotType& type);
+
+}  // namespace roboss::ros2

@@ -1,0 +1,37 @@
+// See robot_names.h.
+#include "ros2/robot_names.h"
+
+#include <cctype>
+
+namespace roboss::ros2 {
+
+std::string ros_name(const std::string& name) {
+    std::string result;
+    for (std::size_t i = 0; i < name.size(); ++i) {
+        const bool is_scope = name.compare(i, 2, "::") == 0;
+        if (is_scope) ++i;
+        const bool begins = result.empty() || result.back() == '/';
+        const char c = is_scope ? '/' : std::isalnum(static_cast<unsigned char>(name[i])) ? name[i] : '_';
+        if (c == '/' && begins) continue;
+        if (begins && std::isdigit(static_cast<unsigned char>(c))) result += '_';
+        result += c;
+    }
+    while (!result.empty() && result.back() == '/') result.pop_back();
+    return result.empty() ? "_" : result;
+}
+
+std::string unique_name(const std::string& name, std::set<std::string>& taken) {
+    std::string result = name;
+    for (int number = 2; !taken.insert(result).second; ++number) result = name + "_" + std::to_string(number);
+    return result;
+}
+
+std::vector<std::string> robot_names(const Model& model) {
+    std::set<std::string> taken{"clock", "tf", "tf_static"};  // topics of the world
+    std::vector<std::string> names;
+    names.reserve(model.robots.size());
+    for (const Robot& robot : model.robots) names.push_back(unique_name(ros_name(robot.name), taken));
+    return names;
+}
+
+}  // namespace roboss::ros2

@@ -1,0 +1,21 @@
+// Names of ROS 2 for what a world names otherwise.
+#pragma once
+
+#include <set>
+#include <string>
+#include <vector>
+
+#include "model/model.h"
+
+namespace roboss::ros2 {
+
+/// The name with what ROS 2 allows in names: letters, digits and _, no digit in front; "::" becomes "/".
+std::string ros_name(const std::string& name);
+
+/// The name, or with _2, _3 ... the first that is not taken; takes it.
+std::string unique_name(const std::string& name, std::set<std::string>& taken);
+
+/// The namespace of each robot without "/" in front, by RobotId: "car_3".
+std::vector<std::string> robot_names(const Model& model);
+
+}  // namespace roboss::ros2
