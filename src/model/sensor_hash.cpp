@@ -150,6 +150,8 @@ void add_to_hash(Hash& hash, const SensorInfo& info) {
     add_value(hash, static_cast<int>(info.link.value));
     for (const std::string& joint : record.joints) hash.add(std::string_view(joint));
     if (record.has_rest) hash.add(record.rest.value());
+    for (const std::string* name : {&s.ros_topic, &s.ros_frame})  // files of earlier versions keep their hash
+        if (!name->empty()) hash.add(std::string_view(*name));
 }
 
 }  // namespace roboss
