@@ -150,8 +150,13 @@ void add_to_hash(Hash& hash, const SensorInfo& info) {
     add_value(hash, static_cast<int>(info.link.value));
     for (const std::string& joint : record.joints) hash.add(std::string_view(joint));
     if (record.has_rest) hash.add(record.rest.value());
-    for (const std::string* name : {&s.ros_topic, &s.ros_frame})  // files of earlier versions keep their hash
-        if (!name->empty()) hash.add(std::string_view(*name));
+}
+
+std::string ros_names(const RobotType& type) {
+    std::string names;
+    for (const SensorInfo& sensor : type.sensors)
+        names += sensor.spec.ros_topic + "\n" + sensor.spec.ros_frame + "\n";
+    return names;
 }
 
 }  // namespace roboss

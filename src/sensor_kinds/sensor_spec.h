@@ -86,7 +86,7 @@ struct SensorSpec {
     SensorParameters parameters;  ///< of its kind
     SourceLocation where;         ///< in the file
     std::string topic{};          ///< of Gazebo, also the usual one; a Model does not keep it
-    std::string ros_topic{},      ///< that the file gives, for ROS 2; empty: it gives none
+    std::string ros_topic{},      ///< that the file gives, for ROS 2; empty: none; in no hash
         ros_frame{};              ///< the same, name of its frame
 
     /// The kind that it is of.
