@@ -26,7 +26,8 @@ struct MessageType {
 /// A type of services, as others must know it.
 struct ServiceType {
     std::string name,  ///< "std_srvs/srv/Empty"
-        hash;          ///< RIHS01
+        request_hash,  ///< RIHS01 of its requests, a type of messages: "std_srvs/srv/Empty_Request"
+        reply_hash;    ///< the same of its replies, "std_srvs/srv/Empty_Response"
 };
 
 /// How a topic's messages are delivered.
