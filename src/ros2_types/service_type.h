@@ -12,7 +12,9 @@ namespace roboss::ros2 {
 /// A type of services, as others must know it.
 struct ServiceType {
     std::string name,  ///< "std_srvs/srv/Empty"
-        hash;          ///< RIHS01
+        hash,          ///< RIHS01
+        request_hash,  ///< of its requests, a type of messages: "std_srvs/srv/Empty_Request"
+        reply_hash;    ///< of its replies: "std_srvs/srv/Empty_Response"
 };
 
 /// A service: a struct with its name, as "std_srvs/srv/Empty", and the messages Request and Response.
@@ -33,7 +35,9 @@ TypeDescription describe() {
 /// The type of a service; made once.
 template <Service S>
 const ServiceType& type_of_service() {
-    static const ServiceType type{S::kName, type_hash(describe<S>())};
+    static const ServiceType type{S::kName, type_hash(describe<S>()),
+                                  type_hash(describe<typename S::Request>()),
+                                  type_hash(describe<typename S::Response>())};
     return type;
 }
 
