@@ -98,9 +98,10 @@ class Ros2Process {
     int list() {
         const auto model = member_.fetch_model(member_.new_address(Role::kClient));
         if (!model) return member_.exit_code();
-        for (const ros2::Topic& topic : ros2::RobotTopics(model).topics())
-            say("{}  {}\n", topic.name, topic.type->name);
-        for (const ros2::CommandTopic& topic : ros2::RobotCommands(model, o_.ros2.face.stamped).topics())
+        const ros2::RobotTopics topics(model);
+        for (const ros2::Topic& topic : topics.topics()) say("{}  {}\n", topic.name, topic.type->name);
+        const ros2::RobotCommands commands(model, o_.ros2.face.stamped);
+        for (const ros2::CommandTopic& topic : commands.topics())
             say("{}  {}  (drives it)\n", topic.name, topic.type->name);
         return kSuccess;
     }
