@@ -20,7 +20,7 @@ using ros2::TransportOptions;
 
 constexpr std::uint32_t kPeersOfHost = 32;  // participants that are tried at a host, as rmw_fastrtps does
 constexpr std::uint32_t kSocketBytes = 4 << 20;  // of a socket's buffer, as far as the system allows
-const Duration kAnnouncements{1, 0};              // nodes that listen to multicast alone are found by these
+const Duration kAnnouncements{1, 0};             // nodes that listen to multicast alone are found by these
 constexpr std::uint16_t kServerPort = 11811;     // of discovery servers, unless a port is named
 
 rtps::Locator_t locator_of(const std::string& address, std::uint16_t port = 0) {
