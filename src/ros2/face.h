@@ -69,13 +69,15 @@ class Face {
     void take_messages(Bus& bus);
     void obey(std::size_t topic, std::string_view cdr);
     void observe(Bus& bus);
+    bool is_ready(std::int64_t now_ms);
     void publish_latched();
-    void publish_observed();
+    void publish_observed(const std::vector<bool>& wanted);
+    void publish_to_late(std::int64_t now_ms);
     void confirm(const std::vector<EntityId>& sent);
-    std::vector<bool> wanted() const;
+    std::vector<std::size_t> count_subscribers() const;
     Result<std::optional<Sample>> measure(RobotId robot, std::size_t sensor);
     void answer_when_complete(Bus& bus);
-    void report_waiting(std::int64_t now_ms);
+    void report_waiting(std::int64_t now_ms, const std::vector<std::size_t>& topics, const char* what);
     void notice(const std::string& line);
 
     Transport& transport_;
@@ -92,6 +94,12 @@ class Face {
     std::vector<EntityId> publisher_of_;                    // of topics_->topics(); 0: it could not be made
     std::map<EntityId, std::size_t> command_of_;            // in commands_->topics()
     std::set<std::pair<std::size_t, std::size_t>> broken_;  // robot and sensor that could not measure
+
+    // Of lockstep: subscribers of topics_->topics() when the observation was published; before, when they
+    // changed last.
+    std::vector<std::size_t> subscribers_;
+    std::int64_t settled_ms_ = 0;
+    bool ready_ = false;
 
     Tick shown_ = -1;           // the observation whose sensors were published last
     std::size_t welcomes_ = 0;  // of the Client, when shown_ was set

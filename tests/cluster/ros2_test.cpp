@@ -98,6 +98,7 @@ TEST_F(RunWithNodes, DriveRobotsAndAreToldWhatIsWrong) {
 /// In lockstep, nodes that answer each clock give one hash, whatever they do in between.
 TEST_F(RunWithNodes, InLockstepTheHashIsThatOfTheMessages) {
     transport.subscribed = {"/clock"};
+    transport.driven = {"/robot/cmd_vel", "/other/cmd_vel"};
     FaceOptions options;
     options.lockstep = {"/*/cmd_vel"};
     std::set<std::uint64_t> hashes;

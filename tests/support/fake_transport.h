@@ -52,6 +52,9 @@ class FakeTransport : public ros2::Transport {
     std::size_t subscribers(ros2::EntityId publisher) const override {
         return subscribed.contains(entities.at(publisher).name) ? 1 : 0;
     }
+    std::size_t publishers(ros2::EntityId subscription) const override {
+        return driven.contains(entities.at(subscription).name) ? 1 : 0;
+    }
     bool await_confirmed(ros2::EntityId, std::int64_t) override { return true; }
     std::vector<ros2::Incoming> take(std::int64_t) override { return std::exchange(arrived, {}); }
     void on_arrival(std::function<void()>) override {}
@@ -81,7 +84,8 @@ class FakeTransport : public ros2::Transport {
     }
 
     std::map<ros2::EntityId, Entity> entities;
-    std::set<std::string> subscribed;  // topics that nodes elsewhere subscribe to
+    std::set<std::string> subscribed,  // topics that nodes elsewhere subscribe to
+        driven;                        // topics that they publish
     std::vector<std::pair<std::string, std::string>> published;
     std::vector<ros2::Incoming> replies, arrived;
 
