@@ -37,7 +37,7 @@ class CdrWriter {
             bytes_.append(value.c_str(), value.size() + 1);
         } else {
             if constexpr (kIsSequence<T>) write(static_cast<std::uint32_t>(value.size()));
-            if constexpr (Primitive<typename T::value_type>)
+            if constexpr (Primitive<typename T::value_type> && !std::is_same_v<T, std::vector<bool>>)
                 numbers(value.data(), value.size());
             else
                 for (const auto& each : value) write(each);
@@ -97,6 +97,7 @@ class CdrReader {
             numbers(name, &count, 1);
             // Every element takes a byte at least: no count can ask for more memory than there are bytes.
             if (count > rest_.size() - at_) return fail(name, "its length");
+            if (kBound < T >> 0 && count > kBound<T>) return fail("'" + std::string(name) + "' is too long");
             if (!problem_.empty()) return;
             value.resize(count);
             elements(name, value);
@@ -105,7 +106,13 @@ class CdrReader {
     }
     template <class T>
     void elements(const char* name, T& values) {
-        if constexpr (Primitive<typename T::value_type>)
+        if constexpr (std::is_same_v<T, std::vector<bool>>)
+            for (std::size_t i = 0; i < values.size(); ++i) {
+                bool value = false;
+                numbers(name, &value, 1);
+                values[i] = value;
+            }
+        else if constexpr (Primitive<typename T::value_type>)
             numbers(name, values.data(), values.size());
         else
             for (auto& each : values) {

@@ -6,6 +6,8 @@
 #include <random>
 
 #include "core/hex.h"
+#include "ros2_types/messages/command_messages.h"
+#include "ros2_types/messages/parameter_services.h"
 #include "ros2_types/messages/sensor_messages.h"
 
 namespace roboss::ros2 {
@@ -70,6 +72,30 @@ TEST(Cdr, LengthsBeyondTheEndAreRefusedBeforeMemoryIsTaken) {
     const Result<ImageMessage> read = from_cdr<ImageMessage>(bytes);
     ASSERT_FALSE(read);
     EXPECT_NE(read.error().text().find("'data'"), std::string::npos) << read.error().text();
+}
+
+TEST(Cdr, MessagesWithoutFieldsHaveAByte) {
+    EXPECT_EQ(hex(to_cdr(Empty{})), "0001000000");
+    EXPECT_TRUE(from_cdr<Empty>(to_cdr(Empty{})));
+}
+
+TEST(Cdr, SequencesOfBoolsAndBytesAreRead) {
+    rcl_interfaces::ParameterValue value;
+    value.type = rcl_interfaces::kBoolArray;
+    value.bool_array_value = {true, false, true}, value.byte_array_value = {std::byte{7}};
+    const Result<rcl_interfaces::ParameterValue> read =
+        from_cdr<rcl_interfaces::ParameterValue>(to_cdr(value));
+    ASSERT_TRUE(read);
+    EXPECT_EQ(read.value().bool_array_value, value.bool_array_value);
+    EXPECT_EQ(read.value().byte_array_value, value.byte_array_value);
+}
+
+TEST(Cdr, BoundedSequencesThatAreTooLongAreRefused) {
+    rcl_interfaces::ParameterDescriptor descriptor;
+    descriptor.integer_range.resize(1);
+    EXPECT_TRUE(from_cdr<rcl_interfaces::ParameterDescriptor>(to_cdr(descriptor)));
+    descriptor.integer_range.resize(2);
+    EXPECT_FALSE(from_cdr<rcl_interfaces::ParameterDescriptor>(to_cdr(descriptor)));
 }
 
 TEST(Cdr, ChangedBytesNeverCrash) {

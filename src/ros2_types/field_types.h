@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <type_traits>
@@ -19,13 +20,30 @@ concept Message = requires(T& message) {
 
 /// A number, a bool or a byte.
 template <class T>
-concept Primitive = std::is_arithmetic_v<T>;
+concept Primitive = std::is_arithmetic_v<T> || std::is_same_v<T, std::byte>;
+
+/// Name of the field that messages without fields have, as ROS 2 gives them one.
+inline constexpr const char* kNoField = "structure_needs_at_least_one_member";
+
+/// A sequence of at most `most` elements.
+template <class T, std::size_t most>
+struct Bounded : std::vector<T> {
+    using std::vector<T>::vector;
+};
 
 template <class T>
 inline constexpr bool kIsSequence = false;
-/// True of unbounded sequences.
+/// True of sequences.
 template <class T>
 inline constexpr bool kIsSequence<std::vector<T>> = true;
+template <class T, std::size_t most>
+inline constexpr bool kIsSequence<Bounded<T, most>> = true;
+
+template <class T>
+inline constexpr std::size_t kBound = 0;
+/// The most elements of a sequence that is bounded; 0: it is not.
+template <class T, std::size_t most>
+inline constexpr std::size_t kBound<Bounded<T, most>> = most;
 
 template <class T>
 inline constexpr bool kIsArray = false;

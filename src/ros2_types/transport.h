@@ -13,21 +13,10 @@
 #include <vector>
 
 #include "core/result.h"
+#include "ros2_types/message_type.h"
+#include "ros2_types/service_type.h"
 
 namespace roboss::ros2 {
-
-/// A type of messages, as others must know it.
-struct MessageType {
-    std::string name,  ///< "sensor_msgs/msg/LaserScan"
-        hash,          ///< RIHS01
-        definition;    ///< in the format ros2msg
-};
-
-/// A type of services, as others must know it.
-struct ServiceType {
-    std::string name,  ///< "std_srvs/srv/Empty"
-        hash;          ///< RIHS01
-};
 
 /// How a topic's messages are delivered.
 struct Qos {

@@ -17,7 +17,7 @@ namespace {
 /// Names of the primitive types by their number, as definitions have them.
 constexpr std::array<std::string_view, 18> kPrimitives{
     "",       "",        "int8",    "uint8", "int16", "uint16", "int32", "uint32", "int64",
-    "uint64", "float32", "float64", "",      "",      "",       "bool",  "",       "string"};
+    "uint64", "float32", "float64", "",      "",      "",       "bool",  "byte",   "string"};
 
 /// The text that the hash is of. Its spaces count.
 std::string json_of(const TypeDescription& type) {
@@ -40,9 +40,12 @@ std::string short_name(const std::string& name) {
 
 std::string lines_of(const TypeDescription& type) {
     std::string text;
+    for (const std::string& constant : type.constants) text += constant + "\n";
     for (const FieldDescription& field : type.fields) {
+        if (field.name == kNoField) continue;
         text += field.type == kNested ? short_name(field.nested) : std::string(kPrimitives[field.type]);
         if (field.container == kSequence) text += "[]";
+        if (field.container == kBounded) text += "[<=" + std::to_string(field.capacity) + "]";
         if (field.container == kArray) text += "[" + std::to_string(field.capacity) + "]";
         text += " " + field.name + "\n";
     }
@@ -60,6 +63,10 @@ std::string type_hash(const TypeDescription& type) {
     unsigned bytes = 0;
     EVP_Digest(text.data(), text.size(), digest.data(), &bytes, EVP_sha256(), nullptr);
     return "RIHS01_" + hexadecimal(std::span(digest).first(bytes));
+}
+
+std::string constant_line(std::uint8_t type, const char* name, std::int64_t value) {
+    return std::string(kPrimitives[type]) + " " + name + "=" + std::to_string(value);
 }
 
 std::string definition_text(const TypeDescription& type) {

@@ -15,8 +15,8 @@ namespace roboss::ros2 {
 struct FieldDescription {
     std::string name;            ///< unique in its type
     std::uint8_t type = 0;       ///< number of the type of one element: kNested, or a primitive
-    std::uint8_t container = 0;  ///< kSingle, kArray or kSequence
-    std::uint64_t capacity = 0;  ///< of an array: how many elements
+    std::uint8_t container = 0;  ///< kSingle, kArray, kBounded or kSequence
+    std::uint64_t capacity = 0;  ///< of an array: how many elements; of a bounded sequence: how many at most
     std::string nested;          ///< name of the type, of kNested
 };
 
@@ -25,10 +25,11 @@ struct TypeDescription {
     std::string name;                      ///< "std_msgs/msg/Header"
     std::vector<FieldDescription> fields;  ///< in their order
     std::vector<TypeDescription> nested;   ///< all that it consists of, also indirectly, by name, each once
+    std::vector<std::string> constants{};  ///< lines of the definition; the hash leaves them out
 };
 
 /// Values of FieldDescription::container.
-inline constexpr std::uint8_t kSingle = 0, kArray = 48, kSequence = 144;
+inline constexpr std::uint8_t kSingle = 0, kArray = 48, kBounded = 96, kSequence = 144;
 /// Value of FieldDescription::type.
 inline constexpr std::uint8_t kNested = 1;
 
@@ -39,6 +40,9 @@ std::string definition_text(const TypeDescription& type);
 
 /// Adds `part` and what it consists of to type.nested.
 void add_nested(TypeDescription& type, TypeDescription part);
+
+/// The line of a constant in a definition: "int8 STATUS_UNKNOWN=0".
+std::string constant_line(std::uint8_t type, const char* name, std::int64_t value);
 
 /// The number of a primitive type or of a string; kNested of messages.
 template <class T>
@@ -67,6 +71,8 @@ constexpr std::uint8_t type_number() {
         return 11;
     else if constexpr (std::is_same_v<T, bool>)
         return 15;
+    else if constexpr (std::is_same_v<T, std::byte>)
+        return 16;
     else {
         static_assert(std::is_same_v<T, std::string>);
         return 17;
@@ -76,7 +82,7 @@ constexpr std::uint8_t type_number() {
 /// The description of a message.
 template <Message M>
 TypeDescription describe() {
-    TypeDescription type{M::kName, {}, {}};
+    TypeDescription type{M::kName, {}, {}, {}};
     M message;
     M::fields(
         [&]<class T>(const char* name, const T& value) {
@@ -89,7 +95,7 @@ TypeDescription describe() {
                 }
             };
             if constexpr (kIsSequence<T>) {
-                field.container = kSequence;
+                field.container = kBound<T> > 0 ? kBounded : kSequence, field.capacity = kBound<T>;
                 set_element(static_cast<const typename T::value_type*>(nullptr));
             } else if constexpr (kIsArray<T>) {
                 field.container = kArray, field.capacity = value.size();
@@ -99,6 +105,10 @@ TypeDescription describe() {
             type.fields.push_back(std::move(field));
         },
         message);
+    if constexpr (requires { M::constants([](const char*, auto) {}); })
+        M::constants([&]<class T>(const char* name, T value) {
+            type.constants.push_back(constant_line(type_number<T>(), name, value));
+        });
     return type;
 }
 

@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include "ros2_types/messages/action_messages.h"
+#include "ros2_types/messages/command_messages.h"
+#include "ros2_types/messages/parameter_services.h"
 #include "ros2_types/messages/sensor_messages.h"
 
 namespace roboss::ros2 {
@@ -59,6 +62,15 @@ TEST(TypeDescription, DefinitionsNameFieldsAndAllTypesThatTheyConsistOf) {
         << odometry;
     EXPECT_NE(odometry.find("MSG: geometry_msgs/Vector3\nfloat64 x\n"), std::string::npos) << odometry;
     EXPECT_NE(odometry.find("float64[36] covariance\n"), std::string::npos) << odometry;
+}
+
+TEST(TypeDescription, DefinitionsHaveConstantsAndBoundsButNoInventedFields) {
+    EXPECT_TRUE(definition_text(describe<GoalStatus>())
+                    .starts_with("int8 STATUS_UNKNOWN=0\nint8 STATUS_ACCEPTED=1\n"));
+    EXPECT_NE(definition_text(describe<rcl_interfaces::ParameterDescriptor>())
+                  .find("rcl_interfaces/IntegerRange[<=1] integer_range\n"),
+              std::string::npos);
+    EXPECT_EQ(definition_text(describe<Empty>()), "");
 }
 
 }  // namespace

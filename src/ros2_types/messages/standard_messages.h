@@ -1,7 +1,8 @@
 // Interfaces of ROS 2 that others are made of: builtin_interfaces, std_msgs, rosgraph_msgs, geometry_msgs,
 // tf2_msgs. A message states its name and its fields, in the order of its definition; encoding, type hash and
-// definition text follow from these (ros2/cdr.h, ros2/type_description.h). Units and frames are those of REP
-// 103: SI, radians, x ahead, y left, z up. Source of names and order: the public definitions of ROS 2.
+// definition text follow from these (ros2_types/cdr.h, ros2_types/type_description.h). Units and frames are
+// those of REP 103: SI, radians, x ahead, y left, z up. Source of names and order: the public definitions of
+// ROS 2.
 #pragma once
 
 #include <array>
