@@ -20,15 +20,6 @@ namespace {
 
 constexpr std::size_t kClock = 0, kTf = 1, kTfStatic = 2;  // topics of the world
 
-template <ros2::Message M>
-const MessageType& type_of() {
-    static const MessageType type = [] {
-        const TypeDescription described = describe<M>();
-        return MessageType{described.name, type_hash(described), definition_text(described)};
-    }();
-    return type;
-}
-
 /// The name with what ROS 2 allows in names: letters, digits and _, no digit in front; "::" becomes "/".
 std::string ros_name(const std::string& name) {
     std::string result;
