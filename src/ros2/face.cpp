@@ -45,9 +45,11 @@ Tick usual_period(const Model& model) {
     return std::max<Tick>(1, static_cast<Tick>(std::floor(period_s / model.dt_s + 1e-9)));
 }
 
-Face::Face(Transport& transport, FaceOptions options) : transport_(transport), options_(std::move(options)) {
-    world_node_ = transport_.add_node("/", "roboss");
-}
+Face::Face(Transport& transport, FaceOptions options)
+    : transport_(transport),
+      options_(std::move(options)),
+      world_node_(transport_.add_node("/", "roboss")),
+      services_(transport_, world_node_, options_.services) {}
 
 Face::~Face() = default;
 
@@ -73,6 +75,9 @@ Result<> Face::show(std::shared_ptr<const Model> model, const Address& self) {
     shown_ = -1, welcomes_ = 0, ready_ = false;
     subscribers_.clear(), broken_.clear();
     open_nodes();
+    services_.use(*client_, nodes_of_robots());
+    services_.put("period", static_cast<double>(times.period) * model_->dt_s,
+                  "simulated time between two looks at the world, s");
     open_topics();
     open_commands();
     transport_.announce();
@@ -82,16 +87,22 @@ Result<> Face::show(std::shared_ptr<const Model> model, const Address& self) {
 void Face::advance(Bus& bus) {
     client_->advance(bus);
     take_messages(bus);
+    if (services_.advance(bus.now_ms()) && !lockstep_ && client_->tick() >= 0)
+        client_->send(bus, client_->tick());
     if (client_->observing()) observe(bus);
     for (const std::string& line : transport_.take_notices()) notice(line);
     for (const std::string& line : client_->take_refusals()) notice(line);
+    for (const std::string& line : services_.take_notices()) notice(line);
 }
 
 void Face::take_messages(Bus& bus) {
     bool ordered = false;
     for (Incoming& message : transport_.take(0)) {
         const auto command = command_of_.find(message.entity);
-        if (command == command_of_.end()) continue;  // of a topic that was closed
+        if (command == command_of_.end()) {
+            (void)services_.take(message);  // else it is of a topic that was closed
+            continue;
+        }
         const CommandTopic& topic = commands_->topics()[command->second];
         if (!lockstep_) {
             obey(command->second, message.bytes);

@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "client/bus_client.h"
+#include "ros2/face_services.h"
 #include "ros2/lockstep.h"
 #include "ros2/robot_commands.h"
 #include "ros2/robot_topics.h"
@@ -24,9 +25,10 @@ namespace roboss::ros2 {
 
 /// How a Face shows a run.
 struct FaceOptions {
-    std::string name = "ros2";  ///< of the Client
-    double period_s = 0;        ///< between two looks at the world; 0: that of the fastest sensor
-    bool stamped = false;       ///< velocities are TwistStamped
+    std::string name = "ros2";    ///< of the Client
+    double period_s = 0;          ///< between two looks at the world; 0: that of the fastest sensor
+    bool stamped = false;         ///< velocities are TwistStamped
+    FaceServiceOptions services;  ///< of the world's node
     /// The world waits for a message of each of these topics in each period; empty: it waits for nobody.
     std::vector<std::string> lockstep;
 };
@@ -59,6 +61,7 @@ class Face {
     using Endpoints = std::map<std::string, Endpoint>;  // by topic
 
     void open_nodes();
+    std::vector<EntityId> nodes_of_robots() const;
     void open_topics();
     void open_commands();
     EntityId node_of(const std::string& topic) const;
@@ -88,7 +91,8 @@ class Face {
     std::unique_ptr<RobotCommands> commands_;
     std::optional<Lockstep> lockstep_;
 
-    EntityId world_node_ = 0;
+    EntityId world_node_;
+    FaceServices services_;
     std::map<std::string, EntityId> nodes_;  // of robots, by namespace without "/"
     Endpoints publishers_, subscriptions_;
     std::vector<EntityId> publisher_of_;                    // of topics_->topics(); 0: it could not be made

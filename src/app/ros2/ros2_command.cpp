@@ -34,6 +34,7 @@ has failed.)";
 struct Ros2ProcessOptions {
     MemberOptions member;
     Ros2Options ros2;
+    std::vector<std::string> model_folders;
     bool list = false;
 };
 
@@ -51,7 +52,7 @@ class Ros2Process {
         if (!opened) return member_.report_error(opened.error()), kBadInput;
         transport_ = std::move(opened).value();
         transport_->on_arrival([this] { member_.bus().ring(); });
-        ros2::Face face(*transport_, o_.ros2.face);
+        ros2::Face face(*transport_, face_options(o_.ros2, o_.model_folders));
         for (;;) {
             if (!show(face)) return member_.exit_code();
             if (const std::optional<int> ended = serve(face)) return *ended;
@@ -120,6 +121,8 @@ void add_ros2_command(CLI::App& app, int& exit_code) {
     command->add_flag("--list", options->list, "print the topics of the run's world, and end");
     command->add_option("--name", options->ros2.face.name, "name of the Client in the run")
         ->capture_default_str();
+    command->add_option("--path", options->model_folders,
+                        "folder with models that nodes may spawn by name (may be repeated)");
     add_ros2_options(*command, options->ros2, "--");
     add_member_options(*command, options->member);
     command->callback([options, &exit_code] { exit_code = Ros2Process(*options).go(); });

@@ -61,6 +61,11 @@ void add_ros2_options(CLI::App& command, Ros2Options& o, const std::string& pref
         ->check(positive_number());
     command.add_flag(prefix + "stamped", o.face.stamped,
                      "velocity commands are geometry_msgs/TwistStamped, not Twist");
+    command
+        .add_option(prefix + "services", o.face.services.simulation.prefix,
+                    "what stands in front of the names of simulation_interfaces, e.g. /gzserver (default: "
+                    "nothing)")
+        ->type_name("PREFIX");
     command.add_option(prefix + "distro", o.distro, "ROS 2 of the other nodes")
         ->check(CLI::IsMember({"humble", "jazzy", "kilted", "lyrical"}))
         ->capture_default_str();
@@ -85,10 +90,20 @@ std::vector<std::string> ros2_arguments(const Ros2Options& o) {
     for (const std::string& peer : o.peers) add("--peer", peer);
     if (o.face.period_s > 0) add("--period", fmt::format("{}", o.face.period_s));
     if (o.face.stamped) words.emplace_back("--stamped");
+    add("--services", o.face.services.simulation.prefix);
     add("--domain", o.domain);
     add("--reach", o.reach);
     add("--discovery-server", o.discovery_server);
     return words;
+}
+
+ros2::FaceOptions face_options(const Ros2Options& o, const std::vector<std::string>& model_folders) {
+    ros2::FaceOptions options = o.face;
+    const bool is_newest = o.distro == "lyrical";
+    options.services.simulation.version = is_newest ? 2 : 1;
+    options.services.older_feedback = !is_newest;
+    options.services.simulation.model_folders = model_folders;
+    return options;
 }
 
 Result<ros2::TransportOptions> transport_options(const Ros2Options& o) {

@@ -23,6 +23,8 @@ struct Ros2Options {
 void add_ros2_options(CLI::App& command, Ros2Options& options, const std::string& prefix);
 /// `roboss ros2` with the same options.
 std::vector<std::string> ros2_arguments(const Ros2Options& options);
+/// For the Face: with the layouts of the distribution. `model_folders`: whose files nodes may spawn by name.
+ros2::FaceOptions face_options(const Ros2Options& options, const std::vector<std::string>& model_folders);
 /// For the transport; what is not given comes from the variables of the environment that ROS 2 reads.
 Result<ros2::TransportOptions> transport_options(const Ros2Options& options);
 

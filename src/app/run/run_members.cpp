@@ -75,6 +75,7 @@ Result<> RunMembers::start_ros2() {
     std::vector<std::string> words = ros2_arguments(o_.ros2);
     words.insert(words.end(), {"--simulation", network_.simulation, "--liveliness-ms",
                                std::to_string(network_.liveliness_ms)});
+    for (const std::string& folder : o_.paths) words.insert(words.end(), {"--path", folder});
     if (network_.insecure) words.emplace_back("--insecure");
     ros2_.emplace("the ROS 2 process", std::move(words));
     return ros2_->start(monotonic_ms());

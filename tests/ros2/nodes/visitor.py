@@ -10,6 +10,7 @@ import rclpy
 import rclpy.node
 from geometry_msgs.msg import Twist
 from nav_msgs.msg import Odometry
+from rcl_interfaces.srv import GetParameters
 from rclpy.qos import DurabilityPolicy, QoSProfile, qos_profile_sensor_data
 from rosgraph_msgs.msg import Clock
 from sensor_msgs.msg import Imu, JointState, LaserScan
@@ -40,6 +41,15 @@ class Visitor(rclpy.node.Node):
             rclpy.spin_once(self, timeout_sec=0.1)
         return done()
 
+    def parameter(self, name):
+        """The value of a parameter of the world's node."""
+        client = self.create_client(GetParameters, "/roboss/get_parameters")
+        if not client.wait_for_service(timeout_sec=5.0):
+            return None
+        answer = client.call_async(GetParameters.Request(names=[name]))
+        self.spin_until(answer.done, 5.0)
+        return answer.result().values[0].bool_value if answer.done() else None
+
     def report(self):
         scan, odometry = (self.got[f"/{self.robot}/{name}"] for name in ("scan", "odom"))
         began = time.monotonic()
@@ -63,6 +73,7 @@ class Visitor(rclpy.node.Node):
             "scan_steps": [round(b - a, 4) for a, b in zip(times, times[1:])],
             "ranges": len(scan[0].ranges) if scan else 0,
             "frame": scan[0].header.frame_id if scan else "",
+            "use_sim_time": self.parameter("use_sim_time"),
             "hash": str(info[0].topic_type_hash) if info else "", "node": info[0].node_name if info else "",
             "description": self.got[f"/{self.robot}/robot_description"][0].data[:300] if first else ""}
 
