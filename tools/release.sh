@@ -31,8 +31,8 @@ rm "$deb/usr/share/doc/roboss/CHANGELOG.md"
 printf 'Source: roboss\n\nPackage: roboss\nArchitecture: any\n' >"$work/debian/control"
 # Fast DDS is recommended: only the process that talks to nodes of ROS 2 loads it.
 fastdds=deb/usr/lib/roboss/libroboss_fastdds.so
-needed=$(cd "$work" && shopt -s extglob && dpkg-shlibdeps -O deb/usr/bin/roboss deb/usr/bin/roboss-world deb/usr/lib/roboss/!(libroboss_fastdds).so \
-    -dRecommends -e"$fastdds")
+mapfile -t programs < <(cd "$work" && printf '%s\n' deb/usr/bin/roboss deb/usr/bin/roboss-world deb/usr/lib/roboss/*.so | grep -vxF "$fastdds")
+needed=$(cd "$work" && dpkg-shlibdeps -O "${programs[@]}" -dRecommends -e"$fastdds")
 depends=$(sed -n 's/^shlibs:Depends=//p' <<<"$needed")
 recommends=$(sed -n 's/^shlibs:Recommends=//p' <<<"$needed")
 architecture=$(dpkg --print-architecture)
