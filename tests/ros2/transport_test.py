@@ -4,87 +4,30 @@ Usage: transport_test.py PROBE CLIENTS NAME [unittest's words]    NAME: kilted, 
 tools/ros2_clients.sh made. Exit code 77: it cannot be tried here, and why.
 """
 import json
-import os
-import queue
 import signal
 import socket
-import subprocess
 import sys
-import threading
 import time
 import unittest
 from pathlib import Path
 
+from harness import BAD_DATAGRAM, PATIENCE, Process, enter_own_network, python_of
+
 HERE = Path(__file__).resolve().parent
 PROBE, CLIENTS, NAME = Path(sys.argv[1]), Path(sys.argv[2]), sys.argv[3]
-PATIENCE = 20  # s
 STRING = "RIHS01_df668c740482bbd48fb39d76a70dfd4bd59db1288021743503259e948f6b1a18"
 TWIST = "RIHS01_9c45bf16fe0983d80e3cfe750d6835843d265a9a6c46bd2e609fcddde6fb8d2a"
 # What rmw_cyclonedds says to Cyclone DDS where discovery reaches this host alone.
 CYCLONE_OF_HOST = """<CycloneDDS><Domain><General><AllowMulticast>false</AllowMulticast></General><Discovery>
 <ParticipantIndex>auto</ParticipantIndex><Peers><Peer address="localhost"/></Peers><MaxAutoParticipantIndex>32
 </MaxAutoParticipantIndex></Discovery></Domain></CycloneDDS>"""
-# Of Fast DDS 2.9.1, which ends its process when it gets this: a flaw in the reading of discovery.
-BAD_DATAGRAM = b"RTPS\x02\x03\x01\x0f" + bytes(12) + b"\x80\x01\x38\x00" + bytes(57)
-
-
-class Process:
-    """A process whose lines of output arrive in a queue."""
-
-    def __init__(self, words, environment=None):
-        self.process = subprocess.Popen(words, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True, bufsize=1,
-                                        env={**os.environ, **(environment or {})})
-        self.lines = queue.Queue()
-        self.seen = []
-        threading.Thread(target=self.read, daemon=True).start()
-
-    def read(self):
-        for line in self.process.stdout:
-            self.lines.put(line.strip())
-
-    def send(self, line):
-        self.process.stdin.write(line + "\n")
-
-    def wait_for(self, start, seconds=PATIENCE):
-        """The rest of the next line that starts so; None: there is none in this time."""
-        end = time.monotonic() + seconds
-        while (left := end - time.monotonic()) > 0:
-            try:
-                line = self.lines.get(timeout=left)
-            except queue.Empty:
-                break
-            self.seen.append(line)
-            if line.startswith(start):
-                return line[len(start):].strip()
-        return None
-
-    def ask(self, line):
-        """The answer to a line, which begins with the same word."""
-        self.send(line)
-        return self.wait_for(line.split()[0])
-
-    def forget(self):
-        while not self.lines.empty():
-            self.lines.get()
-
-    def end(self):
-        if self.process.poll() is None:
-            self.process.send_signal(signal.SIGCONT)
-            try:
-                self.send("quit")
-                self.process.wait(timeout=PATIENCE)
-            except (OSError, subprocess.TimeoutExpired):
-                self.process.kill()
-        return self.process.wait()
 
 
 def peer(*words, **more):
     """A process with the Python of the client's environment."""
-    folder = CLIENTS / NAME
-    environment = {"LD_LIBRARY_PATH": f"{folder}/lib", "AMENT_PREFIX_PATH": str(folder), "RMW_IMPLEMENTATION": "rmw_fastrtps_cpp",
-                   "ROS_LOG_DIR": "/dev/shm", **more}
-    return Process([folder / "bin/python", "-B", HERE / ("cyclone_peer.py" if NAME == "cyclone" else "rclpy_peer.py"), *words],
-                   environment)
+    python, environment = python_of(CLIENTS / NAME)
+    return Process([python, "-B", HERE / ("cyclone_peer.py" if NAME == "cyclone" else "rclpy_peer.py"), *words],
+                   {**environment, **more})
 
 
 class WithProbe(unittest.TestCase):
@@ -236,21 +179,8 @@ class Cyclone(WithProbe):
         self.assertEqual(subscribers, 0)
 
 
-def cannot(why):
-    print(f"transport_test: not tried: {why}", file=sys.stderr)
-    sys.exit(77)
-
-
 def main():
-    if not (CLIENTS / NAME / "stamp").is_file():
-        cannot(f"no {CLIENTS / NAME} (tools/ros2_clients.sh {CLIENTS})")
-    if os.environ.get("ROBOSS_OWN_NETWORK") != "1":
-        words = ["unshare", *(["-r"] if os.getuid() else []), "-n", "-m", "sh", "-c",
-                 'ip link set lo up && ip link set lo multicast on && mount -t tmpfs none /dev/shm && exec "$@"', "sh"]
-        if subprocess.run([*words, "true"], capture_output=True, check=False).returncode:
-            cannot("unshare cannot make a network here (it needs root or user namespaces, and iproute2)")
-        os.environ["ROBOSS_OWN_NETWORK"] = "1"
-        os.execvp(words[0], [*words, sys.executable, "-B", *sys.argv])
+    enter_own_network(CLIENTS / NAME)
     tests = unittest.defaultTestLoader.loadTestsFromTestCase(Cyclone if NAME == "cyclone" else Rclpy)
     if len(sys.argv) > 4:
         tests = unittest.TestSuite(test for test in tests if any(word in test.id() for word in sys.argv[4:]))
