@@ -11,8 +11,9 @@ namespace roboss::ros2 {
 
 /// A type of services, as others must know it.
 struct ServiceType {
-    std::string name,  ///< "std_srvs/srv/Empty"
-        hash;          ///< RIHS01
+    std::string name,                                     ///< "std_srvs/srv/Empty"
+        hash;                                             ///< RIHS01
+    std::string request_definition, response_definition;  ///< in the format ros2msg
 };
 
 /// A service: a struct with its name, as "std_srvs/srv/Empty", and the messages Request and Response.
@@ -33,7 +34,9 @@ TypeDescription describe() {
 /// The type of a service; made once.
 template <Service S>
 const ServiceType& type_of_service() {
-    static const ServiceType type{S::kName, type_hash(describe<S>())};
+    static const ServiceType type{S::kName, type_hash(describe<S>()),
+                                  definition_text(describe<typename S::Request>()),
+                                  definition_text(describe<typename S::Response>())};
     return type;
 }
 
