@@ -74,7 +74,7 @@ void Hub::introduce(Client& client) {
             bytes += publisher->topic.size() + publisher->type.definition.size();
         } else if (const auto* service = std::get_if<ServiceEnd>(&entities_[entity])) {
             services.push_back({entity, &service->name, &service->type});
-            bytes += 2 * (service->type.request_definition.size() + service->type.response_definition.size());
+            bytes += 2 * (service->type.request_definition.size() + service->type.reply_definition.size());
         }
     }
     if (!channels.empty()) send(client, advertise(channels));

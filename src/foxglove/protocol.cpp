@@ -164,9 +164,9 @@ std::string advertise_services(const std::vector<Service>& services) {
                         {"name", *service.name},
                         {"type", type.name},
                         {"request", schema(type.name + "_Request", type.request_definition)},
-                        {"response", schema(type.name + "_Response", type.response_definition)},
+                        {"response", schema(type.name + "_Response", type.reply_definition)},
                         {"requestSchema", type.request_definition},  // for clients of before 2024
-                        {"responseSchema", type.response_definition}});
+                        {"responseSchema", type.reply_definition}});
     }
     return dump({{"op", "advertiseServices"}, {"services", std::move(list)}});
 }

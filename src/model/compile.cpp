@@ -69,9 +69,11 @@ void add_statics(const ModelSpec& spec, const ModelInstance& instance, RobotId o
     }
 }
 
-/// Types equal in every number are one type, whatever prototype they come from.
-TypeId intern_type(RobotType type, Model& model, std::map<std::uint64_t, TypeId>& known) {
-    const auto [entry, is_new] = known.try_emplace(type.hash, TypeId(model.types.size()));
+using KnownTypes = std::map<std::pair<std::uint64_t, std::string>, TypeId>;
+
+/// Types equal in every number and name are one type, whatever prototype they come from.
+TypeId intern_type(RobotType type, Model& model, KnownTypes& known) {
+    const auto [entry, is_new] = known.try_emplace({type.hash, ros_names(type)}, TypeId(model.types.size()));
     if (is_new) model.types.push_back(std::move(type));
     return entry->second;
 }
@@ -79,7 +81,7 @@ TypeId intern_type(RobotType type, Model& model, std::map<std::uint64_t, TypeId>
 std::vector<CompiledPrototype> compile_prototypes(const World& world, ShapeStore& shapes, Model& model,
                                                   Diagnostics& diagnostics) {
     std::vector<CompiledPrototype> prototypes(world.prototypes.size());
-    std::map<std::uint64_t, TypeId> known;
+    KnownTypes known;
     const Surroundings around{!model.fluid.densities.empty(),
                               world.wind_effects ? &*world.wind_effects : nullptr};
     for (std::size_t p = 0; p < world.prototypes.size(); ++p) {

@@ -37,6 +37,8 @@ bool moves_surface(const RobotType& type, LinkId link);
 Material to_material(const SurfaceSpec& surface);
 void add_to_hash(Hash& hash, const Material& material);
 void add_to_hash(Hash& hash, const SensorInfo& sensor);
+/// The names in ROS 2 of all sensors, which are in no hash: types that differ in them alone are two.
+std::string ros_names(const RobotType& type);
 void add_to_hash(Hash& hash, const OnboardInfo& onboard);
 /// The same of what a step reads: links, joints and channels by their numbers, no names and topics.
 void add_to_step_hash(Hash& hash, const OnboardInfo& onboard);

@@ -31,7 +31,9 @@ ModelEdit sealed(std::shared_ptr<Model> model, std::vector<RobotId> now, bool sc
 /// The place of this type in the Model, where it is put if no equal one is there.
 TypeId place_of_type(Model& model, const RobotType& type) {
     for (std::size_t i = 0; i < model.types.size(); ++i)
-        if (model.types[i].hash == type.hash && model.types[i].name == type.name) return TypeId(i);
+        if (model.types[i].hash == type.hash && model.types[i].name == type.name &&
+            ros_names(model.types[i]) == ros_names(type))
+            return TypeId(i);
     model.types.push_back(type);
     return TypeId(model.types.size() - 1);
 }

@@ -152,4 +152,11 @@ void add_to_hash(Hash& hash, const SensorInfo& info) {
     if (record.has_rest) hash.add(record.rest.value());
 }
 
+std::string ros_names(const RobotType& type) {
+    std::string names;
+    for (const SensorInfo& sensor : type.sensors)
+        names += sensor.spec.ros_topic + "\n" + sensor.spec.ros_frame + "\n";
+    return names;
+}
+
 }  // namespace roboss

@@ -1,6 +1,7 @@
 // See robot_names.h.
 #include "ros2/robot_names.h"
 
+#include <algorithm>
 #include <cctype>
 
 namespace roboss::ros2 {
@@ -17,6 +18,16 @@ std::string ros_name(const std::string& name) {
         result += c;
     }
     while (!result.empty() && result.back() == '/') result.pop_back();
+    return result.empty() ? "_" : result;
+}
+
+std::string ros_path(const std::string& path) {
+    std::string result;
+    for (std::size_t begin = 0; begin < path.size();) {
+        const std::size_t end = std::min(path.find('/', begin), path.size());
+        if (end > begin) result += (result.empty() ? "" : "/") + ros_name(path.substr(begin, end - begin));
+        begin = end + 1;
+    }
     return result.empty() ? "_" : result;
 }
 

@@ -12,6 +12,9 @@ namespace roboss::ros2 {
 /// The name with what ROS 2 allows in names: letters, digits and _, no digit in front; "::" becomes "/".
 std::string ros_name(const std::string& name);
 
+/// The same of each part of a path: "/front/scan" is "front/scan".
+std::string ros_path(const std::string& path);
+
 /// The name, or with _2, _3 ... the first that is not taken; takes it.
 std::string unique_name(const std::string& name, std::set<std::string>& taken);
 

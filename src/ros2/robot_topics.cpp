@@ -49,6 +49,19 @@ const CameraOptics* optics_of(const SensorSpec& sensor) {
     return optics;
 }
 
+/// The topic of a sensor's messages: `usual` in the namespace of its robot, or by the file's <topic>. Of a
+/// camera that is the topic of its images; camera_info stands beside it, as with Gazebo.
+std::string topic_name(const std::string& robot, const SensorSpec& sensor, const std::string& suffix,
+                       const std::string& usual) {
+    if (sensor.ros_topic.empty()) return "/" + robot + "/" + usual;
+    std::string given = ros_path(sensor.ros_topic);
+    if (sensor.as<RgbdCameraSpec>())
+        given += "/" + suffix;
+    else if (suffix.ends_with("camera_info"))
+        given = given.substr(0, given.rfind('/') + 1) + "camera_info";
+    return (sensor.ros_topic.starts_with('/') ? "/" : "/" + robot + "/") + given;
+}
+
 }  // namespace
 
 /// A sensor with messages.
@@ -69,6 +82,24 @@ struct RobotTopics::RobotPart {
     std::size_t description = 0;      // its topic
 };
 
+/// Names that are in use.
+struct RobotTopics::Taken {
+    std::set<std::string> topics, frames;
+
+    /// The topic; one that another robot has, too, stands in the namespace of its robot.
+    std::string topic(const std::string& wanted, const std::string& robot) {
+        if (topics.insert(wanted).second) return wanted;
+        const std::string space = "/" + robot + "/";
+        return unique_name(wanted.starts_with(space) ? wanted : "/" + robot + wanted, topics);
+    }
+    /// The frame that the file names, if no other has it, else the usual one.
+    std::string frame(const SensorSpec& sensor, const std::string& robot, const std::string& usual) {
+        if (sensor.ros_frame.empty()) return unique_name(usual, frames);
+        const std::string wanted = ros_path(sensor.ros_frame);
+        return frames.insert(wanted).second ? wanted : unique_name(robot + "/" + wanted, frames);
+    }
+};
+
 RobotTopics::~RobotTopics() = default;
 RobotTopics::RobotTopics(RobotTopics&&) noexcept = default;
 RobotTopics& RobotTopics::operator=(RobotTopics&&) noexcept = default;
@@ -77,54 +108,60 @@ RobotTopics::RobotTopics(std::shared_ptr<const Model> model) : model_(std::move(
     topics_ = {{"/clock", &type_of<Clock>(), false},
                {"/tf", &type_of<TFMessage>(), false},
                {"/tf_static", &type_of<TFMessage>(), true}};
-    std::set<std::string> taken;
+    Taken taken;
     const std::vector<std::string> names = robot_names(*model_);
     for (std::size_t r = 0; r < names.size(); ++r) add_robot(RobotId(r), names[r], taken);
     wanted_.assign(topics_.size(), true);
 }
 
-void RobotTopics::add_robot(RobotId robot, const std::string& name, std::set<std::string>& taken) {
+void RobotTopics::add_robot(RobotId robot, const std::string& name, Taken& taken) {
     const RobotType& type = model_->type_of(robot);
     RobotPart part;
-    std::set<std::string> frames;
     for (const Link& link : type.links)
-        part.frames.push_back(unique_name(name + "/" + ros_name(link.name), frames));
+        part.frames.push_back(unique_name(name + "/" + ros_name(link.name), taken.frames));
     for (std::size_t j = 0; j < type.joints.size(); ++j)
         if (type.joints[j].nv == 1) part.joints.push_back(JointId(j));
     if (!part.joints.empty()) {
         part.joint_states = topics_.size();
         topics_.push_back(
-            {unique_name("/" + name + "/joint_states", taken), &type_of<JointStateMessage>(), false});
+            {unique_name("/" + name + "/joint_states", taken.topics), &type_of<JointStateMessage>(), false});
     }
     part.name = name, part.description = topics_.size();
-    topics_.push_back({unique_name("/" + name + "/robot_description", taken), &type_of<String>(), true});
+    topics_.push_back(
+        {unique_name("/" + name + "/robot_description", taken.topics), &type_of<String>(), true});
     robots_.push_back(std::move(part));
 
+    add_sensors(robot, name, taken);
+}
+
+void RobotTopics::add_sensors(RobotId robot, const std::string& name, Taken& taken) {
+    const RobotType& type = model_->type_of(robot);
     // Topics that several sensors have get the sensor's name in front.
     std::map<std::string, int> uses;
-    const auto place_of = [&](const SensorInfo& info) {
-        return SensorPlace{*model_, info, "", "", "", "", {}};
-    };
     for (const SensorInfo& info : type.sensors)
-        publish(place_of(info), nullptr, [&](const char* suffix, const auto&) { ++uses[suffix]; });
+        publish(SensorPlace{*model_, info, "", "", "", "", {}}, nullptr,
+                [&](const char* suffix, const auto&) { ++uses[suffix]; });
     for (std::size_t s = 0; s < type.sensors.size(); ++s) {
         const SensorInfo& info = type.sensors[s];
         const std::string sensor_name = ros_name(info.spec.name);
         const bool is_camera = optics_of(info.spec) != nullptr;
         Source source{robot, s, topics_.size(), 0, "", "", name + "/odom", {}};
-        publish(place_of(info), nullptr, [&]<class M>(const char* suffix, const M&) {
-            const bool is_named = is_camera || uses[suffix] > 1;
-            const std::string topic = "/" + name + "/" + (is_named ? sensor_name + "/" : "") + suffix;
-            topics_.push_back({unique_name(topic, taken), &type_of<M>(), false});
-        });
+        publish(SensorPlace{*model_, info, "", "", "", "", {}}, nullptr,
+                [&]<class M>(const char* suffix, const M&) {
+                    const bool is_named = is_camera || uses[suffix] > 1;
+                    const std::string usual = (is_named ? sensor_name + "/" : "") + suffix;
+                    const std::string topic = topic_name(name, info.spec, suffix, usual);
+                    topics_.push_back({taken.topic(topic, name), &type_of<M>(), false});
+                });
         source.count = topics_.size() - source.first;
         if (source.count == 0) {
             if (!info.spec.as<JointStatesSpec>())
                 left_out_.push_back(model_->robots[robot.index()].name + "." + info.spec.name);
             continue;
         }
-        source.frame = unique_name(robots_.back().frames[info.link.index()] + "/" + sensor_name, frames);
-        if (is_camera) source.optical_frame = unique_name(source.frame + "_optical_frame", frames);
+        source.frame =
+            taken.frame(info.spec, name, robots_.back().frames[info.link.index()] + "/" + sensor_name);
+        if (is_camera) source.optical_frame = unique_name(source.frame + "_optical_frame", taken.frames);
         if (info.spec.as<WheelOdometrySpec>()) source.X_WO = to_transform(model_->robots[robot.index()].X_WR);
         sources_.push_back(std::move(source));
     }

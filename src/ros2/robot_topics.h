@@ -3,14 +3,14 @@
 //
 // /clock, /tf and /tf_static are of the world. In the namespace of its robot stand joint_states and one topic
 // or two for each sensor: "/car_3/scan"; "/car_3/front/scan" where the robot has several sensors with such a
-// topic, and always for cameras. Frames are "world", "car_3/chassis" for a link, "car_3/chassis/front" for a
-// sensor, "car_3/chassis/eye_optical_frame" for images, "car_3/odom" for odometry.
+// topic, and always for cameras. A topic or frame that the file gives to a sensor takes its place. Frames are
+// "world", "car_3/chassis" for a link, "car_3/chassis/front" for a sensor, "car_3/chassis/eye_optical_frame"
+// for images, "car_3/odom" for odometry.
 #pragma once
 
 #include <functional>
 #include <memory>
 #include <optional>
-#include <set>
 #include <span>
 #include <string>
 #include <vector>
@@ -68,9 +68,11 @@ class RobotTopics {
 
   private:
     struct Source;
+    struct Taken;
     struct RobotPart;
 
-    void add_robot(RobotId robot, const std::string& name, std::set<std::string>& taken);
+    void add_robot(RobotId robot, const std::string& name, Taken& taken);
+    void add_sensors(RobotId robot, const std::string& name, Taken& taken);
     std::string fixed_frames(Tick tick) const;
     std::string moving_frames(Tick tick, std::span<const RobotState> states) const;
     std::string joint_states(Tick tick, RobotId robot, const RobotState& state) const;

@@ -3,6 +3,7 @@
 
 #include "sdf/parameter_reader.h"
 #include "sdf/plugin_conversion.h"
+#include "sdf/sensor_names.h"
 
 namespace roboss::sdf_import {
 namespace {
@@ -190,6 +191,7 @@ SensorSpec convert_sensor(const Element& sensor, const Pose& X_LS, const std::st
     SensorSpec spec = head_of(sensor, X_LS, import);
     if (sensor.child("topic")) spec.topic = sensor.text("topic");
     if (sensor.child("contact").child("topic")) spec.topic = sensor.child("contact").text("topic");
+    read_ros_names(sensor, spec);
     spec.parameters = read_parameters(sensor, spec, scope, import);
     return spec;
 }

@@ -85,7 +85,9 @@ struct SensorSpec {
     double update_rate_hz = 0;    ///< samples a second; 0: one whenever it is asked
     SensorParameters parameters;  ///< of its kind
     SourceLocation where;         ///< in the file
-    std::string topic{};          ///< of Gazebo; a Model does not keep it
+    std::string topic{};          ///< of Gazebo, also the usual one; a Model does not keep it
+    std::string ros_topic{},      ///< that the file gives, for ROS 2; empty: none; in no hash
+        ros_frame{};              ///< the same, name of its frame
 
     /// The kind that it is of.
     const SensorKind& kind() const {

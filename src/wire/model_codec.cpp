@@ -13,7 +13,8 @@ namespace roboss {
 namespace wire {
 namespace {
 
-constexpr std::uint32_t kModelVersion = 11;
+constexpr std::uint32_t kModelVersion = 12;
+constexpr std::uint32_t kWithoutNames = 11;  // the version before, which is still read
 
 /// A Writer and a Reader that know the shared hulls and surfaces, to which shapes point.
 struct ModelWriter : Writer {
@@ -172,6 +173,12 @@ template <class A> void field(A& a, Of<A, Model>& m) {
     fields(a, m.name, m.dt_s, m.gravity, m.magnetic_field_T, m.wind, m.wind_regions, m.air_density, m.fluid, m.accuracy, m.precision, m.sleep, m.types, m.robots, m.statics);
 }
 
+/// Names of sensors in ROS 2, by type; they stand behind all else.
+template <class A, class M> void sensor_names(A& a, M& model) {
+    for (auto& type : model.types)
+        for (auto& sensor : type.sensors) fields(a, sensor.spec.ros_topic, sensor.spec.ros_frame);
+}
+
 /// Does nothing but name every field: a new one breaks the build here, so that it is not forgotten above. (What seal()
 /// computes is left out above: hashes, paths, the tree over the scenery.)
 [[maybe_unused]] void know_fields(const Body& m) { [[maybe_unused]] const auto& [f0, f1, f2, f3, f4, f5, f6, f7, f8, f9, f10, f11, f12, f13, f14, f15] = m; }
@@ -188,7 +195,7 @@ template <class A> void field(A& a, Of<A, Model>& m) {
 [[maybe_unused]] void know_fields(const LinkFluid& m) { [[maybe_unused]] const auto& [f0, f1, f2] = m; }
 [[maybe_unused]] void know_fields(const WindRegion& m) { [[maybe_unused]] const auto& [f0, f1, f2, f3, f4, f5] = m; }
 [[maybe_unused]] void know_fields(const FluidLayers& m) { [[maybe_unused]] const auto& [f0, f1, f2] = m; }
-[[maybe_unused]] void know_fields(const SensorSpec& m) { [[maybe_unused]] const auto& [f0, f1, f2, f3, f4, f5, topic_stays] = m; }
+[[maybe_unused]] void know_fields(const SensorSpec& m) { [[maybe_unused]] const auto& [f0, f1, f2, f3, f4, f5, topic_stays, ros_topic, ros_frame] = m; }
 [[maybe_unused]] void know_fields(const NoiseSpec& m) { [[maybe_unused]] const auto& [f0, f1, f2, f3, f4, f5, f6] = m; }
 [[maybe_unused]] void know_fields(const SensorInfo& m) { [[maybe_unused]] const auto& [f0, f1] = m; }
 [[maybe_unused]] void know_fields(const RobotType& m) { [[maybe_unused]] const auto& [f0, f1, f2, f3, f4, f5, f6, f7, f8, f9, f10, f11, f12, f13, f14, f15, f16, f17, f18, f19, f20, f21, f22, f23, f24, f25, f26, f27, f28, f29, f30, f31, f32, f33, elimination, radios_of_sensors, shape_groups, reach_sphere, step_hash, like] = m; }
@@ -270,6 +277,7 @@ std::vector<std::uint8_t> encode_model(const Model& model) {
     const bool spherical = model.spherical.has_value();
     wire::fields(a, spherical, model);
     if (spherical) wire::fields(a, *model.spherical);
+    wire::sensor_names(a, model);
     return a.take();
 }
 
@@ -280,7 +288,7 @@ Result<std::shared_ptr<const Model>> decode_model(std::span<const std::uint8_t> 
     std::uint64_t hash = 0;
     a.scalar(version);
     a.scalar(hash);
-    if (!a.failed() && version != wire::kModelVersion)
+    if (!a.failed() && version != wire::kModelVersion && version != wire::kWithoutNames)
         return Error{"a Model of version " + std::to_string(version) + ", this program reads " +
                          std::to_string(wire::kModelVersion),
                      "run the same version of RoBOSS everywhere"};
@@ -288,6 +296,7 @@ Result<std::shared_ptr<const Model>> decode_model(std::span<const std::uint8_t> 
     bool spherical = false;
     wire::fields(a, spherical, *model);
     if (spherical) wire::fields(a, model->spherical.emplace());
+    if (version != wire::kWithoutNames) wire::sensor_names(a, *model);
     if (a.left() > 0) a.fail("bytes are left over behind it");
     std::string broken = a.failure();
     if (broken.empty()) broken = broken_part(*model);

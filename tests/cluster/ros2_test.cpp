@@ -1,0 +1,137 @@
+// A run with nodes of ROS 2 beside it: the test plays the nodes.
+#include <gtest/gtest.h>
+
+#include <support/drives.h>
+#include <support/fake_transport.h>
+
+#include "bus/in_process_bus.h"
+#include "ros2/face.h"
+#include "ros2_types/messages/command_messages.h"
+#include "simulation/simulation.h"
+
+namespace roboss::test {
+namespace {
+
+using ros2::Face;
+using ros2::FaceOptions;
+using Kind = FakeTransport::Entity::Kind;
+
+World cars() {
+    World world = on_plane(with_onboard(two_wheeler(), diff_drive()), 2e-3);
+    place(world, with_onboard(two_wheeler(), diff_drive()), "other", {{0, 3, 0}, {}});
+    return world;
+}
+
+class RunWithNodes : public testing::Test {
+  protected:
+    void start(const FaceOptions& options, std::size_t simulators = 1) {
+        auto bus = std::make_unique<InProcessBus>();
+        bus_ = bus.get();
+        SimulationOptions wanted;
+        wanted.simulators = simulators;
+        if (!options.lockstep.empty()) wanted.clients_awaited = {options.name};
+        auto made = roboss::Simulation::create(model, wanted, {}, nullptr, std::move(bus));
+        ASSERT_TRUE(made.ok()) << made.error().text();
+        simulation = std::move(made).value();
+        face.emplace(transport, options);
+        const Result<> shown = face->show(model, Address{Role::kClient, 77});
+        ASSERT_TRUE(shown.ok()) << shown.error().text();
+    }
+    /// Runs to this tick; `nodes` is called in each turn.
+    void run(Tick until, const std::function<void()>& nodes = {}) {
+        const Result<> ran = simulation->run_until(until, [&] {
+            face->advance(*bus_);
+            if (nodes) nodes();
+            return true;
+        });
+        ASSERT_TRUE(ran.ok()) << ran.error().text();
+        for (int turn = 0; turn < 3; ++turn) {
+            face->advance(*bus_);
+            simulation->serve();
+        }
+    }
+
+    std::shared_ptr<const Model> model = compiled(cars());
+    FakeTransport transport;
+    Bus* bus_ = nullptr;
+    std::unique_ptr<roboss::Simulation> simulation;
+    std::optional<Face> face;
+};
+
+TEST_F(RunWithNodes, SeeRobotsAsNodesWithTheirTopics) {
+    start({});
+    EXPECT_NE(transport.find(Kind::kNode, "/roboss"), 0u);
+    EXPECT_NE(transport.find(Kind::kNode, "/robot/robot"), 0u);
+    EXPECT_NE(transport.find(Kind::kPublisher, "/other/joint_states"), 0u);
+    const ros2::EntityId drive = transport.find(Kind::kSubscription, "/other/cmd_vel");
+    ASSERT_NE(drive, 0u);
+    EXPECT_EQ(transport.entities.at(transport.entities.at(drive).node).name, "/other/robot");
+}
+
+TEST_F(RunWithNodes, OnlyWhatSomebodySubscribesToIsPublished) {
+    transport.subscribed = {"/clock", "/robot/joint_states"};
+    start({});
+    run(100);
+    EXPECT_GE(transport.take_published("/clock").size(), 5u);
+    EXPECT_GE(transport.take_published("/robot/joint_states").size(), 5u);
+    EXPECT_EQ(transport.take_published("/tf_static").size(), 1u) << "latched, for who comes later";
+    EXPECT_EQ(transport.take_published("/robot/robot_description").size(), 1u);
+    transport.take_published("/other/robot_description");
+    EXPECT_TRUE(transport.published.empty()) << transport.published.front().first;
+}
+
+TEST_F(RunWithNodes, DriveRobotsAndAreToldWhatIsWrong) {
+    start({});
+    run(20);
+    transport.send("/robot/cmd_vel", ros2::TwistMessage{{0.5, 0, 0}, {}});
+    transport.send("/other/cmd_vel", ros2::Bool{true});
+    transport.send_bytes("/other/cmd_vel", "");
+    run(1000);
+    const std::vector<RobotState>& states = simulation->states();
+    EXPECT_GT(base_pose(states[0]).p.x, 0.5);
+    EXPECT_NEAR(base_pose(states[1]).p.x, 0, 0.01);
+    const std::vector<std::string> notices = face->take_notices();
+    ASSERT_FALSE(notices.empty());
+    EXPECT_NE(notices.front().find("/other/cmd_vel"), std::string::npos) << notices.front();
+}
+
+/// In lockstep, nodes that answer each clock give one hash, whatever they do in between.
+TEST_F(RunWithNodes, InLockstepTheHashIsThatOfTheMessages) {
+    transport.subscribed = {"/clock"};
+    FaceOptions options;
+    options.lockstep = {"/*/cmd_vel"};
+    std::set<std::uint64_t> hashes;
+    for (const int delay : {0, 1, 7}) {
+        face.reset();
+        start(options, 1 + static_cast<std::size_t>(delay) % 3);
+        int turn = 0, answers = 0, heard = 0;
+        run(500, [&] {
+            heard += static_cast<int>(transport.take_published("/clock").size());
+            if (++turn % (delay + 1) != 0 || answers >= heard) return;
+            const double turn_rate = 0.1 * answers++;
+            const char* first = delay == 1 ? "/other/cmd_vel" : "/robot/cmd_vel";
+            const char* second = delay == 1 ? "/robot/cmd_vel" : "/other/cmd_vel";
+            transport.send(first, ros2::TwistMessage{{0.5, 0, 0}, {0, 0, turn_rate}});
+            transport.send(second, ros2::TwistMessage{{0.5, 0, 0}, {0, 0, turn_rate}});
+        });
+        EXPECT_GE(answers, 50);
+        hashes.insert(simulation->hash());
+        EXPECT_TRUE(face->take_notices().empty());
+    }
+    EXPECT_EQ(hashes.size(), 1u);
+}
+
+TEST_F(RunWithNodes, AnotherWorldKeepsWhatItStillHas) {
+    start({});
+    const ros2::EntityId drive = transport.find(Kind::kSubscription, "/robot/cmd_vel"),
+                         gone = transport.find(Kind::kSubscription, "/other/cmd_vel");
+    World smaller = on_plane(with_onboard(two_wheeler(), diff_drive()), 2e-3);
+    ASSERT_TRUE(face->show(compiled(smaller), Address{Role::kClient, 78}).ok());
+    EXPECT_EQ(transport.find(Kind::kSubscription, "/robot/cmd_vel"), drive);
+    EXPECT_FALSE(transport.entities.contains(gone));
+    EXPECT_EQ(transport.find(Kind::kNode, "/other/robot"), 0u);
+    EXPECT_NE(transport.find(Kind::kPublisher, "/clock"), 0u);
+}
+
+}  // namespace
+}  // namespace roboss::test
