@@ -163,11 +163,11 @@ void Hub::publish(EntityId entity, std::string_view cdr) {
     auto* publisher = find<Publisher>(entity);
     if (publisher == nullptr) return;
     const std::uint64_t time = time_of(*publisher, cdr);
-    if (publisher->type.name == kClock) {
-        time_ns_ = time;
-        send_time();
-    }
+    const bool is_clock = publisher->type.name == kClock;
+    if (is_clock) set_time(time);
     if (publisher->subscribers == 0 && !publisher->qos.is_latched) return;
+    // Viewers show a message at the time that they heard last, and the clock is the last message of a tick.
+    if (!is_clock && time > time_ns_) set_time(time);
     const Message message{time, std::make_shared<const std::string>(cdr)};
     for (auto& [number, client] : clients_)
         if (const auto* subscription = find_in(client.subscription_of, entity))

@@ -149,6 +149,8 @@ class Hub {
     void send(Client& client, Frame frame);
     void send_message(Client& client, std::uint32_t subscription, const Publisher& publisher,
                       const Message& message);
+    void send_latched(Client& client, std::uint32_t subscription, const Publisher& publisher);
+    void set_time(std::uint64_t time_ns);
     void send_time();
     void send_graph(Client& client);
     void send_gone(Client& client);
@@ -165,7 +167,8 @@ class Hub {
     void obey(Client& client, const ClientUnadvertise& request);
     void obey(Client& client, const WatchGraph& request);
     void unsubscribe(Client& client, std::uint32_t subscription);
-    std::string problem_of(const Client& client, const ClientChannel& channel) const;
+    std::string refusal(const Client& client, const ClientChannel& channel) const;
+    std::string problem_of(const ClientChannel& channel) const;
     bool take_message(ClientNumber number, Client& client, const ClientMessage& message);
     bool take_call(ClientNumber number, Client& client, const ServiceCall& call);
     std::string problem_of(const Client& client, const ServiceCall& call) const;

@@ -104,18 +104,15 @@ void Hub::obey(Client& client, const Subscribe& request) {
             client.publisher_of[subscription] = channel;
             client.subscription_of[channel] = subscription;
             ++publisher->subscribers;
-            for (const Message& message : publisher->latched)
-                send_message(client, subscription, *publisher, message);
+            send_latched(client, subscription, *publisher);
         }
     }
 }
 
 void Hub::obey(Client& client, const Unsubscribe& request) {
     for (const std::uint32_t subscription : request.subscriptions)
-        if (client.publisher_of.contains(subscription))
+        if (client.publisher_of.contains(subscription))  // else its channel has gone
             unsubscribe(client, subscription);
-        else
-            send(client, status(Level::kWarning, "there is no subscription " + std::to_string(subscription)));
 }
 
 void Hub::unsubscribe(Client& client, std::uint32_t subscription) {
@@ -127,30 +124,40 @@ void Hub::unsubscribe(Client& client, std::uint32_t subscription) {
     sent_.notify_all();
 }
 
-/// Why messages of this channel would reach nobody; empty: they do.
-std::string Hub::problem_of(const Client& client, const ClientChannel& channel) const {
+/// Why messages of this channel can never arrive; empty: they can.
+std::string Hub::refusal(const Client& client, const ClientChannel& channel) const {
     if (client.channels.contains(channel.id))
         return "the channel " + std::to_string(channel.id) + " exists already";
     if (client.channels.size() >= kClientChannelsMost) return "this client has too many channels";
-    if (channel.topic.size() > kNameBytesMost) return "the name of a topic is too long";
-    const auto use = topics_.find(channel.topic);
-    if (use == topics_.end() || use->second.subscriptions.empty())
-        return "nothing here subscribes to " + channel.topic;
+    if (channel.topic.size() > kNameBytesMost || channel.schema_name.size() > kNameBytesMost)
+        return "the name of a topic or type is too long";
     if (channel.encoding != kCdr)
         return channel.topic + ": messages must be in CDR, not in " +
                channel.encoding.substr(0, kNameBytesMost);
-    if (full_name(channel.schema_name) != use->second.type)
-        return channel.topic + " is a topic of " + use->second.type + ", not of " +
-               channel.schema_name.substr(0, kNameBytesMost);
     return {};
 }
 
+/// Why messages of this channel do not arrive for the time being; empty: they do.
+std::string Hub::problem_of(const ClientChannel& channel) const {
+    const auto use = topics_.find(channel.topic);
+    if (use == topics_.end() || use->second.subscriptions.empty())
+        return "nothing here subscribes to " + channel.topic;
+    if (full_name(channel.schema_name) != use->second.type)
+        return channel.topic + " is a topic of " + use->second.type + ", not of " + channel.schema_name;
+    return {};
+}
+
+/// A channel that nothing subscribes to is kept: its robot may come later.
 void Hub::obey(Client& client, const ClientAdvertise& request) {
-    for (const ClientChannel& channel : request.channels)
-        if (const std::string problem = problem_of(client, channel); !problem.empty())
-            send(client, status(Level::kError, problem));
-        else
-            client.channels[channel.id] = channel;
+    for (const ClientChannel& channel : request.channels) {
+        if (const std::string why = refusal(client, channel); !why.empty()) {
+            send(client, status(Level::kError, why));
+            continue;
+        }
+        client.channels[channel.id] = channel;
+        if (const std::string problem = problem_of(channel); !problem.empty())
+            send(client, status(Level::kWarning, problem, "channel-" + std::to_string(channel.id)));
+    }
 }
 
 void Hub::obey(Client& client, const ClientUnadvertise& request) {
@@ -165,19 +172,19 @@ void Hub::obey(Client& client, const WatchGraph& request) {
 
 bool Hub::take_message(ClientNumber number, Client& client, const ClientMessage& message) {
     const auto channel = client.channels.find(message.channel);
-    if (channel == client.channels.end()) {
-        send(client, status(Level::kError, "this client has no channel " + std::to_string(message.channel),
-                            "channel-" + std::to_string(message.channel)));
-        return false;
-    }
-    const auto use = topics_.find(channel->second.topic);
-    if (use == topics_.end() || message.payload.size() < kEncapsulation) {
-        const std::string why = use == topics_.end() ? ": its robot has gone" : ": the message is too short";
-        send(client, status(Level::kError, channel->second.topic + why));
+    std::string problem;
+    if (channel == client.channels.end())
+        problem = "this client has no channel " + std::to_string(message.channel);
+    else if (message.payload.size() < kEncapsulation)
+        problem = channel->second.topic + ": the message is too short";
+    else
+        problem = problem_of(channel->second);
+    if (!problem.empty()) {
+        send(client, status(Level::kError, problem, "channel-" + std::to_string(message.channel)));
         return false;
     }
     const ros2::CallId id = call_id(number, ++client.received);
-    for (const EntityId entity : use->second.subscriptions) {
+    for (const EntityId entity : topics_.at(channel->second.topic).subscriptions) {
         if (inbox_.bytes() + message.payload.size() > kInboxBytesMost) {
             add_notice("messages of " + client.name + " are lost: they arrive too fast [too-fast]");
             return true;

@@ -48,6 +48,21 @@ void Hub::send_message(Client& client, std::uint32_t subscription, const Publish
     wake(client);
 }
 
+void Hub::send_latched(Client& client, std::uint32_t subscription, const Publisher& publisher) {
+    for (const Message& message : publisher.latched) send_message(client, subscription, publisher, message);
+}
+
+/// Where it goes back, viewers forget all messages, also those that are sent once.
+void Hub::set_time(std::uint64_t time_ns) {
+    const bool is_back = time_ns < time_ns_;
+    time_ns_ = time_ns;
+    send_time();
+    if (!is_back) return;
+    for (auto& [number, client] : clients_)
+        for (const auto& [subscription, entity] : client.publisher_of)
+            send_latched(client, subscription, std::get<Publisher>(entities_[entity]));
+}
+
 void Hub::send_time() {
     for (auto& [number, client] : clients_) {
         client.messages.forget(kTimeTopic);

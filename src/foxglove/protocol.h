@@ -1,6 +1,6 @@
-// The messages of Foxglove's WebSocket protocol as text and bytes. Source: the specification in the repository
-// foxglove/ws-protocol (its last version is that before commit 8e2a044), and foxglove/foxglove-sdk, whose
-// subprotocol has another name and the same messages.
+// The messages of Foxglove's WebSocket protocol as text and bytes. Source: the specification in the
+// repository foxglove/ws-protocol (its last version is that before commit 8e2a044), and
+// foxglove/foxglove-sdk, whose subprotocol has another name and the same messages.
 #pragma once
 
 #include <cstdint>

@@ -84,6 +84,7 @@ std::string Server::url() const {
 }
 
 void Server::start() {
+    hub_.notice("open " + url() + " in Foxglove or Lichtblick [listening]");
     if (!acceptor_.local_endpoint().address().is_loopback())
         hub_.notice("everybody who reaches " + url() + " can read and drive this run [insecure]");
     accept();

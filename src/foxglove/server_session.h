@@ -41,11 +41,11 @@ class Server {
 
     Hub& hub_;
     FoxgloveOptions options_;
+    std::set<ClientSession*> sessions_;  // sessions take themselves out, the last ones when io_ ends
+    std::atomic<std::size_t> open_ = 0;  // the size of it
     boost::asio::io_context io_;
     boost::asio::ip::tcp::acceptor acceptor_;
-    boost::asio::steady_timer pause_;    // before the next connection is accepted, after an error
-    std::set<ClientSession*> sessions_;  // sessions take themselves out
-    std::atomic<std::size_t> open_ = 0;  // the size of it
+    boost::asio::steady_timer pause_;  // before the next connection is accepted, after an error
     std::thread thread_;
 };
 

@@ -17,7 +17,7 @@ class TestClient {
   public:
     using Json = nlohmann::json;
 
-    /// Connects; status() says whether it may.
+    /// Connects; is_open() says whether it may.
     explicit TestClient(std::uint16_t port, const std::string& subprotocols = "foxglove.sdk.v1",
                         const std::string& origin = "") {
         namespace http = boost::beast::http;
@@ -31,12 +31,12 @@ class TestClient {
         websocket::response_type response;
         boost::beast::error_code error;
         socket_.handshake(response, "localhost", "/", error);
-        status_ = static_cast<int>(response.result_int());
+        is_open_ = !error;
         const auto subprotocol = response[http::field::sec_websocket_protocol];
         subprotocol_ = std::string(subprotocol.data(), subprotocol.size());
     }
 
-    int status() const { return status_; }
+    bool is_open() const { return is_open_; }
     const std::string& subprotocol() const { return subprotocol_; }
 
     void send(const Json& json) { send_text(json.dump()); }
@@ -83,9 +83,8 @@ class TestClient {
     boost::asio::io_context io_;
     boost::beast::websocket::stream<boost::asio::ip::tcp::socket> socket_{io_};
     boost::beast::flat_buffer buffer_;
-    int status_ = 0;
     std::string subprotocol_;
-    bool is_reading_ = false, is_closed_ = false;
+    bool is_open_ = false, is_reading_ = false, is_closed_ = false;
 };
 
 }  // namespace roboss::foxglove

@@ -19,6 +19,11 @@ struct Ros2Options {
     std::vector<std::string> peers;
 };
 
+/// The look of topics, whoever reads them: --period and --stamped with this prefix.
+void add_face_options(CLI::App& command, ros2::FaceOptions& face, const std::string& prefix);
+/// Adds them to the arguments of a process.
+void add_face_arguments(std::vector<std::string>& words, const ros2::FaceOptions& face);
+
 /// `prefix`: "--" or "--ros2-".
 void add_ros2_options(CLI::App& command, Ros2Options& options, const std::string& prefix);
 /// `roboss ros2` with the same options.
