@@ -26,6 +26,7 @@
 #include "app/commands/usage.h"
 #include "app/commands/view_command.h"
 #include "app/dataset/dataset_command.h"
+#include "app/foxglove/foxglove_command.h"
 #include "app/ros2/ros2_command.h"
 #include "app/run/sense.h"
 #include "app/viewer/snapshot.h"
@@ -41,7 +42,7 @@ void group_commands(CLI::App& app) {
         {"Control and keep a run", {"control", "runs", "save", "replay", "journal", "diff"}},
         {"Look into a run", {"record", "plot", "analyse", "calibrate"}},
         {"Members of a run on several computers",
-         {"controller", "simulator", "client", "view", "ros2", "cluster", "keys"}}};
+         {"controller", "simulator", "client", "view", "ros2", "foxglove", "cluster", "keys"}}};
     for (const auto& [group, commands] : groups)
         for (const char* command : commands) app.get_subcommand(command)->group(group);
 }
@@ -80,6 +81,7 @@ int main(int argc, char** argv) {
     roboss::add_client_command(app, exit_code);
     roboss::add_view_command(app, exit_code);
     roboss::add_ros2_command(app, exit_code);
+    roboss::add_foxglove_command(app, exit_code);
     roboss::add_cluster_command(app, exit_code);
     roboss::add_keys_command(app, exit_code);
     roboss::add_python_commands(app, exit_code);

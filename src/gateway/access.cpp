@@ -112,7 +112,7 @@ Result<ListenAddress> parse_listen_address(const std::string& text) {
         result.address = result.address.substr(1, result.address.size() - 2);
     const auto [end, error] = std::from_chars(port.data(), port.data() + port.size(), result.port);
     if (error != std::errc() || end != port.data() + port.size() || result.address.empty())
-        return Error{"'" + text + "' is not an address for the viewer",
+        return Error{"'" + text + "' is not an address to listen at",
                      "give PORT or ADDRESS:PORT, for example 0.0.0.0:8090", "bad-address"};
     if (result.address == "localhost") result.address = "127.0.0.1";
     return result;

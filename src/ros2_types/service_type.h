@@ -15,6 +15,8 @@ struct ServiceType {
         hash,          ///< RIHS01
         request_hash,  ///< of its requests, a type of messages: "std_srvs/srv/Empty_Request"
         reply_hash;    ///< of its replies: "std_srvs/srv/Empty_Response"
+    std::string request_definition,  ///< in the format ros2msg
+        reply_definition;            ///< the same
 };
 
 /// A service: a struct with its name, as "std_srvs/srv/Empty", and the messages Request and Response.
@@ -37,7 +39,9 @@ template <Service S>
 const ServiceType& type_of_service() {
     static const ServiceType type{S::kName, type_hash(describe<S>()),
                                   type_hash(describe<typename S::Request>()),
-                                  type_hash(describe<typename S::Response>())};
+                                  type_hash(describe<typename S::Response>()),
+                                  definition_text(describe<typename S::Request>()),
+                                  definition_text(describe<typename S::Response>())};
     return type;
 }
 

@@ -48,24 +48,28 @@ std::string reach_given(const Ros2Options& o) {
 
 }  // namespace
 
+void add_face_options(CLI::App& command, ros2::FaceOptions& face, const std::string& prefix) {
+    command
+        .add_option(prefix + "period", face.period_s,
+                    "simulated time between two looks at the world, s (default: that of the fastest sensor, "
+                    "at most 0.02)")
+        ->check(positive_number());
+    command.add_flag(prefix + "stamped", face.stamped,
+                     "velocity commands are geometry_msgs/TwistStamped, not Twist");
+    command
+        .add_option(prefix + "services", face.services.simulation.prefix,
+                    "what stands in front of the names of simulation_interfaces, e.g. /gzserver (default: "
+                    "nothing)")
+        ->type_name("PREFIX");
+}
+
 void add_ros2_options(CLI::App& command, Ros2Options& o, const std::string& prefix) {
     command
         .add_option(prefix + "lockstep", o.face.lockstep,
                     "the world waits in each period for a message of this topic, e.g. '/*/cmd_vel' (may be "
                     "repeated): the same nodes then give the same run, to the last bit")
         ->type_name("TOPIC");
-    command
-        .add_option(prefix + "period", o.face.period_s,
-                    "simulated time between two looks at the world, s (default: that of the fastest sensor, "
-                    "at most 0.02)")
-        ->check(positive_number());
-    command.add_flag(prefix + "stamped", o.face.stamped,
-                     "velocity commands are geometry_msgs/TwistStamped, not Twist");
-    command
-        .add_option(prefix + "services", o.face.services.simulation.prefix,
-                    "what stands in front of the names of simulation_interfaces, e.g. /gzserver (default: "
-                    "nothing)")
-        ->type_name("PREFIX");
+    add_face_options(command, o.face, prefix);
     command.add_option(prefix + "distro", o.distro, "ROS 2 of the other nodes")
         ->check(CLI::IsMember({"humble", "jazzy", "kilted", "lyrical"}))
         ->capture_default_str();
@@ -81,28 +85,32 @@ void add_ros2_options(CLI::App& command, Ros2Options& o, const std::string& pref
                        "HOST:PORT;... of discovery servers (default: ROS_DISCOVERY_SERVER)");
 }
 
+void add_face_arguments(std::vector<std::string>& words, const ros2::FaceOptions& face) {
+    if (face.period_s > 0) words.insert(words.end(), {"--period", fmt::format("{}", face.period_s)});
+    if (face.stamped) words.emplace_back("--stamped");
+    if (!face.services.simulation.prefix.empty())
+        words.insert(words.end(), {"--services", face.services.simulation.prefix});
+}
+
 std::vector<std::string> ros2_arguments(const Ros2Options& o) {
     std::vector<std::string> words{"roboss", "ros2", "--distro", o.distro};
     const auto add = [&](const char* option, const std::string& value) {
         if (!value.empty()) words.insert(words.end(), {option, value});
     };
+    add_face_arguments(words, o.face);
     for (const std::string& topic : o.face.lockstep) add("--lockstep", topic);
     for (const std::string& peer : o.peers) add("--peer", peer);
-    if (o.face.period_s > 0) add("--period", fmt::format("{}", o.face.period_s));
-    if (o.face.stamped) words.emplace_back("--stamped");
-    add("--services", o.face.services.simulation.prefix);
     add("--domain", o.domain);
     add("--reach", o.reach);
     add("--discovery-server", o.discovery_server);
     return words;
 }
 
-ros2::FaceOptions face_options(const Ros2Options& o, const std::vector<std::string>& model_folders) {
+ros2::FaceOptions face_options(const Ros2Options& o) {
     ros2::FaceOptions options = o.face;
     const bool is_newest = o.distro == "lyrical";
     options.services.simulation.version = is_newest ? 2 : 1;
     options.services.older_feedback = !is_newest;
-    options.services.simulation.model_folders = model_folders;
     return options;
 }
 

@@ -71,7 +71,7 @@ class Run {
     /// Here, or by `roboss view` elsewhere.
     bool is_shown() const {
         return !o_.viewer.headless || o_.is_controller || o_.sense.wanted() || o_.dataset.wanted() ||
-               o_.ros2.wanted;
+               o_.shows_nodes();
     }
     bool keeps_looks(const Model& with_them);
     Result<ModelVisuals::Worlds> seen_worlds(const Model& model);

@@ -196,7 +196,7 @@ bool Run::drive() {
                        {dataset_ ? o_.dataset.every_s : 0.0, dt, start_},
                        {o_.hash_every_s, dt, start_},
                        {o_.paths_picture.empty() ? 0.0 : kPictureEvery_s, dt, start_}};
-    const bool has_nodes = o_.ros2.wanted && o_.ros2.face.lockstep.empty();  // they keep real time
+    const bool has_nodes = o_.shows_nodes() && o_.ros2.face.lockstep.empty();  // they keep real time
     const bool watched = (gateway_ != nullptr || has_nodes) && !takes_picture();
     const std::string speed = !o_.speed.empty() ? o_.speed : watched ? "world" : "max";
     pace_.speed = speed == "max" ? 0.0 : speed == "world" ? world_speed_ : std::stod(speed);

@@ -28,7 +28,7 @@ constexpr std::int64_t kFarewell_ms = 3'000;        // for all processes to end 
 Result<std::unique_ptr<RunMembers>> RunMembers::gather(const RunOptions& options, std::int64_t prepared_ms) {
     std::unique_ptr<RunMembers> members(new RunMembers(options));
     members->network_ = options.network;
-    const bool is_private = !options.is_controller && (options.processes > 0 || options.ros2.wanted);
+    const bool is_private = !options.is_controller && (options.processes > 0 || options.shows_nodes());
     if (is_private) {
         std::random_device device;
         members->network_.simulation = fmt::format("run-{}-{:08x}", getpid(), device());
@@ -42,7 +42,14 @@ Result<std::unique_ptr<RunMembers>> RunMembers::gather(const RunOptions& options
     for (int i = 0; i < options.processes; ++i)
         if (Result<> started = members->start_process(); !started) return started.error();
     if (options.ros2.wanted)
-        if (Result<> started = members->start_ros2(); !started) return started.error();
+        if (Result<> started = members->start_companion("the ROS 2 process", ros2_arguments(options.ros2));
+            !started)
+            return started.error();
+    if (options.foxglove.wanted())
+        if (Result<> started =
+                members->start_companion("the Foxglove server", foxglove_arguments(options.foxglove));
+            !started)
+            return started.error();
     return members;
 }
 
@@ -71,14 +78,13 @@ Result<> RunMembers::start_process() {
 }
 
 /// It finds this process as Simulators do.
-Result<> RunMembers::start_ros2() {
-    std::vector<std::string> words = ros2_arguments(o_.ros2);
+Result<> RunMembers::start_companion(const char* what, std::vector<std::string> words) {
     words.insert(words.end(), {"--simulation", network_.simulation, "--liveliness-ms",
                                std::to_string(network_.liveliness_ms)});
     for (const std::string& folder : o_.paths) words.insert(words.end(), {"--path", folder});
     if (network_.insecure) words.emplace_back("--insecure");
-    ros2_.emplace("the ROS 2 process", std::move(words));
-    return ros2_->start(monotonic_ms());
+    companions_.emplace_back(what, std::move(words));
+    return companions_.back().start(monotonic_ms());
 }
 
 void RunMembers::configure(SimulationOptions& options) const {
@@ -130,12 +136,12 @@ Result<> RunMembers::watch_start(const Simulation& simulation) {
 }
 
 Result<> RunMembers::look_after(const Simulation& simulation) {
-    if (o_.processes == 0 && !ros2_) return Ok{};
+    if (o_.processes == 0 && companions_.empty()) return Ok{};
     const std::int64_t now = monotonic_ms();  // it asks the kernel about every process: not in every turn
     if (now - looked_ms_ < kLook_ms) return Ok{};
     looked_ms_ = now;
-    if (ros2_)
-        if (Result<> looked = ros2_->look(now); !looked) return looked;
+    for (Companion& companion : companions_)
+        if (Result<> looked = companion.look(now); !looked) return looked;
     if (o_.processes == 0) return Ok{};
     if (processes_.starting()) return watch_start(simulation);
     for (std::string& line : processes_.take_ended()) notices_.push_back(std::move(line));
@@ -150,8 +156,8 @@ Result<> RunMembers::look_after(const Simulation& simulation) {
 std::vector<std::string> RunMembers::take_notices() {
     if (open_bus_ != nullptr)
         for (std::string& line : open_bus_->take_notices()) notices_.push_back(std::move(line));
-    if (ros2_)
-        for (std::string& line : ros2_->take_notices()) notices_.push_back(std::move(line));
+    for (Companion& companion : companions_)
+        for (std::string& line : companion.take_notices()) notices_.push_back(std::move(line));
     return std::exchange(notices_, {});
 }
 
@@ -160,7 +166,7 @@ void RunMembers::end(const RunOver& over, bool abandoned) {
     open_bus_->say_farewell(over);
     if (!abandoned) open_bus_->flush(1'000);
     processes_.await_exit(abandoned ? 0 : kFarewell_ms);
-    if (ros2_) ros2_->await_exit(abandoned ? 0 : kFarewell_ms);
+    for (Companion& companion : companions_) companion.await_exit(abandoned ? 0 : kFarewell_ms);
 }
 
 }  // namespace roboss

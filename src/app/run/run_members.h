@@ -46,7 +46,7 @@ class RunMembers {
     explicit RunMembers(const RunOptions& options) : o_(options) {}
     Result<> open_network();
     Result<> start_process();
-    Result<> start_ros2();
+    Result<> start_companion(const char* what, std::vector<std::string> words);
     Result<> watch_start(const Simulation& simulation);
 
     const RunOptions& o_;
@@ -54,8 +54,8 @@ class RunMembers {
     std::unique_ptr<StreamBus> bus_;
     StreamBus* open_bus_ = nullptr;  // the same; the Simulation owns it then
     SimulatorProcesses processes_;
-    std::optional<Companion> ros2_;  // speaks to ROS 2 nodes
-    std::int64_t patience_ms_ = 0;   // with processes that do not join
+    std::vector<Companion> companions_;  // speak to ROS 2 nodes, and to Foxglove
+    std::int64_t patience_ms_ = 0;       // with processes that do not join
     std::vector<std::string> notices_;
     std::int64_t looked_ms_ = 0;
     int started_again_ = 0;

@@ -283,6 +283,18 @@ void add_ros2_options(CLI::App& command, RunOptions& o) {
     name_new_options(command, "ROS 2");
 }
 
+/// The viewers Foxglove and Lichtblick.
+void add_foxglove_options(CLI::App& command, RunOptions& o) {
+    CLI::Option* foxglove = command.add_flag(
+        fmt::format("--foxglove{{{}}}", kFoxglovePort), o.foxglove.listen,
+        "serve Foxglove and Lichtblick at ws://localhost:8765, or with --foxglove=[ADDRESS:]PORT elsewhere "
+        "(docs/foxglove.md)");
+    add_foxglove_options(command, o.foxglove, "--foxglove-");
+    for (CLI::Option* option : command.get_options())
+        if (option->get_name().starts_with("--foxglove-")) option->needs(foxglove);
+    name_new_options(command, "Foxglove");
+}
+
 /// Of runs that no other computer joins.
 void add_name_option(CLI::App& command, RunOptions& o) {
     command.add_option_function<std::string>(
@@ -300,6 +312,7 @@ void add_run_options(CLI::App& command, RunOptions& o) {
     command.footer(fmt::format("{}\n\n{}", kRunOptionsFooter, kExitCodes));
     add_common_options(command, o);
     add_ros2_options(command, o);
+    add_foxglove_options(command, o);
     add_name_option(command, o);
     CLI::Option* simulators =
         command
@@ -339,6 +352,7 @@ void add_controller_options(CLI::App& command, RunOptions& o) {
     command.footer(fmt::format("{}\n\n{}", kControllerFooter, kExitCodes));
     add_common_options(command, o);
     add_ros2_options(command, o);
+    add_foxglove_options(command, o);
     command
         .add_option(
             "--simulators", o.simulators,

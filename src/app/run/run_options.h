@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "app/dataset/dataset_options.h"
+#include "app/foxglove/foxglove_options.h"
 #include "app/ros2/ros2_options.h"
 #include "app/run/sense.h"
 #include "app/viewer/snapshot.h"
@@ -46,6 +47,7 @@ struct RunOptions {
     std::vector<std::string> clients_awaited;
     NetOptions network;
     Ros2Options ros2;
+    FoxgloveServerOptions foxglove;
     bool merge_islands = false;
     std::vector<std::string> clients;  // control programs, shared libraries
     std::string orders;                // JSON lines
@@ -79,6 +81,8 @@ struct RunOptions {
     bool quiet = false;
     bool quiet_but_progress = false;  // of commands that are quiet by themselves
 
+    /// A process beside the run shows it as nodes.
+    bool shows_nodes() const { return ros2.wanted || foxglove.wanted(); }
     bool shows_progress() const { return !quiet || quiet_but_progress; }
 };
 
