@@ -11,10 +11,10 @@ namespace roboss::ros2 {
 
 /// A type of services, as others must know it.
 struct ServiceType {
-    std::string name,  ///< "std_srvs/srv/Empty"
-        hash,          ///< RIHS01
-        request_hash,  ///< of its requests, a type of messages: "std_srvs/srv/Empty_Request"
-        reply_hash;    ///< of its replies: "std_srvs/srv/Empty_Response"
+    std::string name,                ///< "std_srvs/srv/Empty"
+        hash,                        ///< RIHS01
+        request_hash,                ///< of its requests, a type of messages: "std_srvs/srv/Empty_Request"
+        reply_hash;                  ///< of its replies: "std_srvs/srv/Empty_Response"
     std::string request_definition,  ///< in the format ros2msg
         reply_definition;            ///< the same
 };
@@ -37,7 +37,8 @@ TypeDescription describe() {
 /// The type of a service; made once.
 template <Service S>
 const ServiceType& type_of_service() {
-    static const ServiceType type{S::kName, type_hash(describe<S>()),
+    static const ServiceType type{S::kName,
+                                  type_hash(describe<S>()),
                                   type_hash(describe<typename S::Request>()),
                                   type_hash(describe<typename S::Response>()),
                                   definition_text(describe<typename S::Request>()),
