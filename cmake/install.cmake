@@ -68,7 +68,8 @@ configure_package_config_file(${CMAKE_SOURCE_DIR}/cmake/roboss-config.cmake.in $
 write_basic_package_version_file(${CMAKE_BINARY_DIR}/roboss-config-version.cmake COMPATIBILITY SameMinorVersion)
 install(FILES ${CMAKE_BINARY_DIR}/roboss-config.cmake ${CMAKE_BINARY_DIR}/roboss-config-version.cmake DESTINATION ${config_dir})
 
-# The programs, and the example control programs as libraries that `roboss run --client` loads, with what they share.
+# The programs, and the libraries that they load: the example control programs (`roboss run --client`), with what they
+# share, and Fast DDS.
 foreach(program roboss roboss-world)
   if(TARGET ${program})
     install(TARGETS ${program} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
@@ -77,7 +78,7 @@ endforeach()
 set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/worlds/examples.json)
 file(READ ${CMAKE_SOURCE_DIR}/worlds/examples.json example_list)
 string(REGEX MATCHALL "roboss_[a-z_]+" example_programs "${example_list}")
-foreach(library roboss_client_library ${example_programs} roboss_watch_robot)
+foreach(library roboss_client_library ${example_programs} roboss_watch_robot roboss_fastdds)
   if(TARGET ${library})
     install(TARGETS ${library} LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}/roboss)
   endif()

@@ -29,7 +29,12 @@ gzip -9n <"$deb/usr/share/doc/roboss/CHANGELOG.md" >"$deb/usr/share/doc/roboss/c
 mv "$deb/usr/share/doc/roboss/LICENSE" "$deb/usr/share/doc/roboss/copyright"
 rm "$deb/usr/share/doc/roboss/CHANGELOG.md"
 printf 'Source: roboss\n\nPackage: roboss\nArchitecture: any\n' >"$work/debian/control"
-depends=$(cd "$work" && dpkg-shlibdeps -O "deb/usr/bin/roboss" "deb/usr/bin/roboss-world" deb/usr/lib/roboss/*.so | sed -n 's/^shlibs:Depends=//p')
+# Fast DDS is recommended: only the process that talks to nodes of ROS 2 loads it.
+fastdds=deb/usr/lib/roboss/libroboss_fastdds.so
+mapfile -t programs < <(cd "$work" && printf '%s\n' deb/usr/bin/roboss deb/usr/bin/roboss-world deb/usr/lib/roboss/*.so | grep -vxF "$fastdds")
+needed=$(cd "$work" && dpkg-shlibdeps -O "${programs[@]}" -dRecommends -e"$fastdds")
+depends=$(sed -n 's/^shlibs:Depends=//p' <<<"$needed")
+recommends=$(sed -n 's/^shlibs:Recommends=//p' <<<"$needed")
 architecture=$(dpkg --print-architecture)
 cat >"$deb/DEBIAN/control" <<END
 Package: roboss
@@ -38,6 +43,7 @@ Architecture: $architecture
 Maintainer: The RoBOSS developers <roboss@localhost>
 Installed-Size: $(du -sk "$deb/usr" | cut -f1)
 Depends: $depends
+Recommends: $recommends
 Suggests: chromium
 Section: science
 Priority: optional

@@ -3,8 +3,7 @@
 // - rmw_fastrtps names the client's reader of replies in related_sample_identity;
 // - Cyclone DDS puts 16 bytes before the fields of request and reply: the client, and a number;
 // - plain DDS-RPC repeats the request's identity (its writer and number) in the reply.
-// Sources: rmw_fastrtps_shared_cpp/src/rmw_request.cpp, rmw_cyclonedds_cpp/src/serdata.hpp, OMG
-// DDS-RPC 7.6.2.
+// Sources: rmw_fastrtps, rmw_cyclonedds, OMG DDS-RPC 7.6.2.
 #pragma once
 
 #include <deque>

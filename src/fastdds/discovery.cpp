@@ -1,5 +1,5 @@
 // How a participant finds others and is found, as nodes of ROS 2 do
-// (rmw_fastrtps_shared_cpp/src/participant.cpp). UDP alone: shared memory would need a folder that both sides
+// (rmw_fastrtps, participant.cpp). UDP alone: shared memory would need a folder that both sides
 // see. There is no list of allowed interfaces: with one, nodes of Jazzy and Kilted do not see this process
 // where the host has a network.
 #include <arpa/inet.h>
@@ -20,6 +20,7 @@ using ros2::TransportOptions;
 
 constexpr std::uint32_t kPeersOfHost = 32;  // participants that are tried at a host, as rmw_fastrtps does
 constexpr std::uint32_t kSocketBytes = 4 << 20;  // of a socket's buffer, as far as the system allows
+const Duration kAnnouncements{1, 0};             // nodes that listen to multicast alone are found by these
 constexpr std::uint16_t kServerPort = 11811;     // of discovery servers, unless a port is named
 
 rtps::Locator_t locator_of(const std::string& address, std::uint16_t port = 0) {
@@ -110,6 +111,7 @@ Result<dds::DomainParticipantQos> participant_qos(const TransportOptions& option
     qos.name("/");
     const std::string_view enclave = "enclave=/;";
     qos.user_data().data_vec({enclave.begin(), enclave.end()});
+    qos.wire_protocol().builtin.discovery_config.leaseDuration_announcementperiod = kAnnouncements;
     use_udp(qos);
     if (!options.discovery_server.empty()) {
         const Result<> added = add_servers(options.discovery_server, qos);

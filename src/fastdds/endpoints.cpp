@@ -107,8 +107,9 @@ Result<std::unique_ptr<Reader>> Reader::open(Participant& participant, const Dds
     std::unique_ptr<Reader> made(new Reader(participant, topic.name, std::move(on_sample)));
     dds::DataReaderQos wanted = dds::DATAREADER_QOS_DEFAULT;
     set_qos(wanted, qos, hash);
-    made->reader_ = participant.subscriber().create_datareader(used.value(), wanted, made.get(),
-                                                               dds::StatusMask::data_available());
+    made->reader_ = participant.subscriber().create_datareader(
+        used.value(), wanted, made.get(),
+        dds::StatusMask::data_available() << dds::StatusMask::subscription_matched());
     if (made->reader_ == nullptr) return refused(topic);
     return made;
 }

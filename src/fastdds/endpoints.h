@@ -1,6 +1,8 @@
 // A reader and a writer of a topic, whose messages are bytes.
 #pragma once
 
+#include <algorithm>
+#include <atomic>
 #include <functional>
 #include <memory>
 #include <mutex>
@@ -65,16 +67,22 @@ class Reader : dds::DataReaderListener {
     Reader& operator=(const Reader&) = delete;
 
     Guid guid() const { return to_guid(reader_->guid()); }
+    /// Writers elsewhere.
+    std::size_t writer_count() const { return writers_; }
 
   private:
     Reader(Participant& participant, std::string topic, std::function<void(Sample)> on_sample)
         : participant_(participant), topic_(std::move(topic)), on_sample_(std::move(on_sample)) {}
     void on_data_available(dds::DataReader* reader) override;
+    void on_subscription_matched(dds::DataReader*, const dds::SubscriptionMatchedStatus& status) override {
+        writers_ = static_cast<std::size_t>(std::max(status.current_count, 0));
+    }
 
     Participant& participant_;
     std::string topic_;
     std::function<void(Sample)> on_sample_;
     dds::DataReader* reader_ = nullptr;
+    std::atomic<std::size_t> writers_{0};
 };
 
 }  // namespace roboss::fastdds

@@ -137,6 +137,11 @@ std::size_t FastDdsTransport::subscribers(EntityId publisher) const {
     return writer == nullptr ? 0 : writer->reader_count();
 }
 
+std::size_t FastDdsTransport::publishers(EntityId subscription) const {
+    const Reader* reader = find(subscriptions_, subscription);
+    return reader == nullptr ? 0 : reader->writer_count();
+}
+
 bool FastDdsTransport::await_confirmed(EntityId publisher, std::int64_t ms_max) {
     Writer* writer = find(publishers_, publisher);
     return writer == nullptr || writer->await_confirmed(ms_max);

@@ -73,6 +73,10 @@ std::size_t FoxgloveTransport::subscribers(EntityId publisher) const {
     return hub_->subscribers(publisher);
 }
 
+std::size_t FoxgloveTransport::publishers(EntityId subscription) const {
+    return hub_->publishers(subscription);
+}
+
 bool FoxgloveTransport::await_confirmed(EntityId publisher, std::int64_t ms_max) {
     return hub_->await_sent(publisher, ms_max);
 }

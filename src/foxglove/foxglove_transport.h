@@ -55,6 +55,7 @@ class FoxgloveTransport final : public ros2::Transport {
     void reply(ros2::EntityId service, const ros2::CallId& call, std::string_view cdr) override;
     std::size_t subscribers(ros2::EntityId publisher) const override;
     /// Waits until the messages have been given to the sockets; the protocol has no confirmations.
+    std::size_t publishers(ros2::EntityId subscription) const override;
     bool await_confirmed(ros2::EntityId publisher, std::int64_t ms_max) override;
     std::vector<ros2::Incoming> take(std::int64_t wait_ms) override;
     void on_arrival(std::function<void()> ring) override;

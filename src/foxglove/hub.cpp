@@ -202,6 +202,16 @@ std::size_t Hub::subscribers(EntityId entity) const {
     return publisher->subscribers + (is_clock ? clients_.size() : 0);
 }
 
+std::size_t Hub::publishers(EntityId entity) const {
+    const std::lock_guard lock(mutex_);
+    const auto* subscription = find<Subscription>(entity);
+    if (subscription == nullptr) return 0;
+    std::size_t count = 0;
+    for (const auto& [number, client] : clients_)
+        for (const auto& [id, channel] : client.channels) count += channel.topic == subscription->topic;
+    return count;
+}
+
 bool Hub::is_waiting(const Client& client, EntityId publisher) const {
     const auto* subscription = find_in(client.subscription_of, publisher);
     return subscription != nullptr && !client.is_lost &&

@@ -57,6 +57,7 @@ class Hub {
     void publish(EntityId publisher, std::string_view cdr);
     void reply(EntityId service, const ros2::CallId& call, std::string_view cdr);
     std::size_t subscribers(EntityId publisher) const;
+    std::size_t publishers(EntityId subscription) const;
     bool await_sent(EntityId publisher, std::int64_t ms_max);
     std::vector<ros2::Incoming> take(std::int64_t wait_ms);
     void on_arrival(std::function<void()> ring);

@@ -14,6 +14,7 @@ namespace roboss::ros2 {
 namespace {
 
 constexpr std::int64_t kTellWaiting_ms = 3'000;
+constexpr std::int64_t kSettle_ms = 500;   // without a new subscription, before lockstep begins
 constexpr std::int64_t kConfirm_ms = 200;  // a subscriber that takes longer is stopped or gone
 constexpr std::size_t kNoticesMost = 200;  // different texts
 constexpr double kUsualPeriod_s = 0.02;
@@ -28,6 +29,12 @@ std::optional<std::int64_t> stamp_ns(CommandTopic::Kind kind, std::string_view c
     return ns == 0 ? std::nullopt : std::optional(ns);
 }
 
+std::vector<bool> wanted_of(const std::vector<std::size_t>& subscribers) {
+    std::vector<bool> wanted(subscribers.size());
+    for (std::size_t t = 0; t < wanted.size(); ++t) wanted[t] = subscribers[t] > 0;
+    return wanted;
+}
+
 }  // namespace
 
 Tick usual_period(const Model& model) {
@@ -38,9 +45,11 @@ Tick usual_period(const Model& model) {
     return std::max<Tick>(1, static_cast<Tick>(std::floor(period_s / model.dt_s + 1e-9)));
 }
 
-Face::Face(Transport& transport, FaceOptions options) : transport_(transport), options_(std::move(options)) {
-    world_node_ = transport_.add_node("/", "roboss");
-}
+Face::Face(Transport& transport, FaceOptions options)
+    : transport_(transport),
+      options_(std::move(options)),
+      world_node_(transport_.add_node("/", "roboss")),
+      services_(transport_, world_node_, options_.services) {}
 
 Face::~Face() = default;
 
@@ -63,9 +72,12 @@ Result<> Face::show(std::shared_ptr<const Model> model, const Address& self) {
         if (!lockstep) return lockstep.error();
         lockstep_ = std::move(lockstep).value();
     }
-    shown_ = -1, welcomes_ = 0;
-    broken_.clear();
+    shown_ = -1, welcomes_ = 0, ready_ = false;
+    subscribers_.clear(), broken_.clear();
     open_nodes();
+    services_.use(*client_, nodes_of_robots());
+    services_.put("period", static_cast<double>(times.period) * model_->dt_s,
+                  "simulated time between two looks at the world, s");
     open_topics();
     open_commands();
     transport_.announce();
@@ -75,16 +87,22 @@ Result<> Face::show(std::shared_ptr<const Model> model, const Address& self) {
 void Face::advance(Bus& bus) {
     client_->advance(bus);
     take_messages(bus);
+    if (services_.advance(bus.now_ms()) && !lockstep_ && client_->tick() >= 0)
+        client_->send(bus, client_->tick());
     if (client_->observing()) observe(bus);
     for (const std::string& line : transport_.take_notices()) notice(line);
     for (const std::string& line : client_->take_refusals()) notice(line);
+    for (const std::string& line : services_.take_notices()) notice(line);
 }
 
 void Face::take_messages(Bus& bus) {
     bool ordered = false;
     for (Incoming& message : transport_.take(0)) {
         const auto command = command_of_.find(message.entity);
-        if (command == command_of_.end()) continue;  // of a topic that was closed
+        if (command == command_of_.end()) {
+            (void)services_.take(message);  // else it is of a topic that was closed
+            continue;
+        }
         const CommandTopic& topic = commands_->topics()[command->second];
         if (!lockstep_) {
             obey(command->second, message.bytes);
@@ -105,6 +123,7 @@ void Face::obey(std::size_t topic, std::string_view cdr) {
 }
 
 void Face::observe(Bus& bus) {
+    const std::int64_t now = bus.now_ms();
     const bool is_new = client_->tick() != shown_ || client_->welcomes() != welcomes_;
     if (is_new) {
         if (client_->tick() < shown_ || shown_ < 0) {  // the beginning, or the run went back
@@ -113,42 +132,85 @@ void Face::observe(Bus& bus) {
         }
         shown_ = client_->tick(), welcomes_ = client_->welcomes();
         if (lockstep_) lockstep_->begin(topics_->stamp_ns(shown_));
-        publish_observed();
-        waiting_since_ms_ = bus.now_ms(), waiting_told_ = false;
+        waiting_since_ms_ = now, waiting_told_ = false;
     }
-    if (lockstep_) return answer_when_complete(bus);
-    client_->answer(bus);
+    if (!lockstep_) {
+        publish_observed(wanted_of(count_subscribers()));
+        return client_->answer(bus);
+    }
+    if (!ready_) {
+        if (!is_ready(now)) return;
+    } else if (!is_new) {
+        publish_to_late(now);
+        return answer_when_complete(bus);
+    }
+    subscribers_ = count_subscribers();
+    publish_observed(wanted_of(subscribers_));
+}
+
+/// Lockstep begins once a node is there for each of its topics and no subscription has come for a while: a
+/// node that is not yet connected would miss the first messages, and the world would wait for its answer.
+bool Face::is_ready(std::int64_t now_ms) {
+    std::vector<std::size_t> count = count_subscribers();
+    if (count != subscribers_) subscribers_ = std::move(count), settled_ms_ = now_ms;
+    std::vector<std::size_t> absent;
+    for (const std::size_t topic : lockstep_->topics()) {
+        const auto id = subscriptions_.find(commands_->topics()[topic].name);
+        if (id == subscriptions_.end() || transport_.publishers(id->second.id) == 0) absent.push_back(topic);
+    }
+    if (!absent.empty()) {
+        settled_ms_ = now_ms;
+        report_waiting(now_ms, absent, "a node that publishes ");
+    }
+    ready_ = now_ms - settled_ms_ >= kSettle_ms;
+    if (ready_) waiting_since_ms_ = now_ms, waiting_told_ = false;
+    return ready_;
+}
+
+/// Who subscribes while the world waits, as a node that was started again, gets what it missed. Others who
+/// have the topic get it twice; so at first only topics that nobody had.
+void Face::publish_to_late(std::int64_t now_ms) {
+    const std::vector<std::size_t> count = count_subscribers();
+    std::vector<bool> late(count.size());
+    for (std::size_t t = 0; t < count.size(); ++t)
+        late[t] = count[t] > subscribers_[t] &&
+                  (subscribers_[t] == 0 || now_ms - waiting_since_ms_ > kTellWaiting_ms);
+    if (std::ranges::find(late, true) == late.end()) return;
+    for (std::size_t t = 0; t < count.size(); ++t)
+        if (late[t]) subscribers_[t] = count[t];
+    topics_->repeat();
+    publish_observed(late);
 }
 
 void Face::answer_when_complete(Bus& bus) {
-    if (!lockstep_->is_complete()) return report_waiting(bus.now_ms());
+    if (!lockstep_->is_complete()) return report_waiting(bus.now_ms(), lockstep_->missing(), "a message on ");
     for (const Lockstep::Accepted& message : lockstep_->accepted()) obey(message.topic, message.bytes);
     client_->answer(bus);
 }
 
-void Face::report_waiting(std::int64_t now_ms) {
+void Face::report_waiting(std::int64_t now_ms, const std::vector<std::size_t>& topics, const char* what) {
     if (now_ms - waiting_since_ms_ < kTellWaiting_ms || std::exchange(waiting_told_, true)) return;
-    const std::vector<std::size_t> missing = lockstep_->missing();
-    std::string text = "the world waits for a message on " + commands_->topics()[missing.front()].name;
-    if (missing.size() > 1) text += " and " + std::to_string(missing.size() - 1) + " more topics";
+    std::string text = std::string("the world waits for ") + what + commands_->topics()[topics.front()].name;
+    if (topics.size() > 1) text += " and " + std::to_string(topics.size() - 1) + " more topics";
     notices_.push_back(text + " [lockstep]");
 }
 
 void Face::publish_latched() {
+    topics_->select(std::vector<bool>(publisher_of_.size(), true));
     for (const RobotTopics::Message& message : topics_->latched(std::max<Tick>(client_->tick(), 0)))
         if (publisher_of_[message.topic] != 0)
             transport_.publish(publisher_of_[message.topic], message.bytes);
 }
 
-std::vector<bool> Face::wanted() const {
-    std::vector<bool> wanted(publisher_of_.size());
-    for (std::size_t t = 0; t < wanted.size(); ++t)
-        wanted[t] = publisher_of_[t] != 0 && transport_.subscribers(publisher_of_[t]) > 0;
-    return wanted;
+std::vector<std::size_t> Face::count_subscribers() const {
+    std::vector<std::size_t> count(publisher_of_.size());
+    for (std::size_t t = 0; t < count.size(); ++t)
+        count[t] = publisher_of_[t] == 0 ? 0 : transport_.subscribers(publisher_of_[t]);
+    return count;
 }
 
-void Face::publish_observed() {
-    topics_->select(wanted());
+void Face::publish_observed(const std::vector<bool>& wanted) {
+    topics_->select(wanted);
     const Result<std::vector<RobotTopics::Message>> messages =
         topics_->messages(client_->tick(), client_->states(),
                           [this](RobotId robot, std::size_t sensor) { return measure(robot, sensor); });

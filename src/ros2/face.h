@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "client/bus_client.h"
+#include "ros2/face_services.h"
 #include "ros2/lockstep.h"
 #include "ros2/robot_commands.h"
 #include "ros2/robot_topics.h"
@@ -24,9 +25,10 @@ namespace roboss::ros2 {
 
 /// How a Face shows a run.
 struct FaceOptions {
-    std::string name = "ros2";  ///< of the Client
-    double period_s = 0;        ///< between two looks at the world; 0: that of the fastest sensor
-    bool stamped = false;       ///< velocities are TwistStamped
+    std::string name = "ros2";    ///< of the Client
+    double period_s = 0;          ///< between two looks at the world; 0: that of the fastest sensor
+    bool stamped = false;         ///< velocities are TwistStamped
+    FaceServiceOptions services;  ///< of the world's node
     /// The world waits for a message of each of these topics in each period; empty: it waits for nobody.
     std::vector<std::string> lockstep;
 };
@@ -59,6 +61,7 @@ class Face {
     using Endpoints = std::map<std::string, Endpoint>;  // by topic
 
     void open_nodes();
+    std::vector<EntityId> nodes_of_robots() const;
     void open_topics();
     void open_commands();
     EntityId node_of(const std::string& topic) const;
@@ -69,13 +72,15 @@ class Face {
     void take_messages(Bus& bus);
     void obey(std::size_t topic, std::string_view cdr);
     void observe(Bus& bus);
+    bool is_ready(std::int64_t now_ms);
     void publish_latched();
-    void publish_observed();
+    void publish_observed(const std::vector<bool>& wanted);
+    void publish_to_late(std::int64_t now_ms);
     void confirm(const std::vector<EntityId>& sent);
-    std::vector<bool> wanted() const;
+    std::vector<std::size_t> count_subscribers() const;
     Result<std::optional<Sample>> measure(RobotId robot, std::size_t sensor);
     void answer_when_complete(Bus& bus);
-    void report_waiting(std::int64_t now_ms);
+    void report_waiting(std::int64_t now_ms, const std::vector<std::size_t>& topics, const char* what);
     void notice(const std::string& line);
 
     Transport& transport_;
@@ -86,12 +91,19 @@ class Face {
     std::unique_ptr<RobotCommands> commands_;
     std::optional<Lockstep> lockstep_;
 
-    EntityId world_node_ = 0;
+    EntityId world_node_;
+    FaceServices services_;
     std::map<std::string, EntityId> nodes_;  // of robots, by namespace without "/"
     Endpoints publishers_, subscriptions_;
     std::vector<EntityId> publisher_of_;                    // of topics_->topics(); 0: it could not be made
     std::map<EntityId, std::size_t> command_of_;            // in commands_->topics()
     std::set<std::pair<std::size_t, std::size_t>> broken_;  // robot and sensor that could not measure
+
+    // Of lockstep: subscribers of topics_->topics() when the observation was published; before, when they
+    // changed last.
+    std::vector<std::size_t> subscribers_;
+    std::int64_t settled_ms_ = 0;
+    bool ready_ = false;
 
     Tick shown_ = -1;           // the observation whose sensors were published last
     std::size_t welcomes_ = 0;  // of the Client, when shown_ was set

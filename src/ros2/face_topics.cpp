@@ -19,6 +19,12 @@ void Face::open_nodes() {
         std::erase_if(*endpoints, [&](const auto& entry) { return node_of(entry.first) == 0; });
 }
 
+std::vector<EntityId> Face::nodes_of_robots() const {
+    std::vector<EntityId> nodes;
+    for (const std::string& name : robot_names(*model_)) nodes.push_back(nodes_.at(name));
+    return nodes;
+}
+
 /// The node of a topic's robot, or of the world; 0: the robot is none of this world.
 EntityId Face::node_of(const std::string& topic) const {
     // Names of robots may have slashes: the longest that fits.

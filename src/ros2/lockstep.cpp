@@ -61,10 +61,17 @@ bool Lockstep::take(std::size_t topic, std::string bytes, std::optional<std::int
     if (places_[topic] == kNowhere) return false;
     Gate& gate = gates_[places_[topic]];
     if (gate.next.size() >= kWaitingMost) return ++dropped_, true;
+    if (gate.message && stamp_ns == stamp_ns_) return ++dropped_, true;  // the same answer once more
     if (gate.message) ++early_;
     gate.next.push_back({std::move(bytes), stamp_ns});
     fill(gate);
     return true;
+}
+
+std::vector<std::size_t> Lockstep::topics() const {
+    std::vector<std::size_t> topics;
+    for (const Gate& gate : gates_) topics.push_back(gate.topic);
+    return topics;
 }
 
 std::vector<std::size_t> Lockstep::missing() const {

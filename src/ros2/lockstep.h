@@ -28,6 +28,8 @@ class Lockstep {
     bool take(std::size_t topic, std::string bytes, std::optional<std::int64_t> stamp_ns);
     /// Whether every topic has its message of this period.
     bool is_complete() const { return open_ == 0; }
+    /// All topics that it waits for, in RobotCommands::topics().
+    std::vector<std::size_t> topics() const;
     /// Topics that still lack it.
     std::vector<std::size_t> missing() const;
 
@@ -41,7 +43,7 @@ class Lockstep {
 
     /// Messages so far that came more than once in a period, and wait for the next ones.
     std::uint64_t early() const { return early_; }
-    /// Messages so far that answered to an earlier period, or for which there was no room.
+    /// Messages so far that answered to a period that has its message, or for which there was no room.
     std::uint64_t dropped() const { return dropped_; }
 
   private:

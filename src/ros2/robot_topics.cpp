@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <utility>
 
 #include "client/held_samples.h"
 #include "physics/dynamics/kinematics.h"
@@ -296,7 +297,7 @@ Result<std::vector<RobotTopics::Message>> RobotTopics::messages(Tick tick, std::
         if (!sample) return sample.error();
         if (sample.value()) add_readings(source, tick, *sample.value(), out);
     }
-    last_ = tick;
+    before_ = std::exchange(last_, tick);
     return out;
 }
 

@@ -62,7 +62,9 @@ class RobotTopics {
     Result<std::vector<Message>> messages(Tick tick, std::span<const RobotState> states,
                                           const Measure& measure);
     /// The run went back in time: all samples are due again.
-    void forget() { last_ = -1; }
+    void forget() { last_ = before_ = -1; }
+    /// The next call of messages() is for the tick of the last one once more.
+    void repeat() { last_ = before_; }
     /// The stamp of messages at a tick, ns.
     std::int64_t stamp_ns(Tick tick) const;
 
@@ -85,7 +87,7 @@ class RobotTopics {
     std::vector<std::string> left_out_;
     std::vector<Source> sources_;
     std::vector<RobotPart> robots_;
-    Tick last_ = -1;  // tick of the last call
+    Tick last_ = -1, before_ = -1;  // ticks of the last two calls
 };
 
 }  // namespace roboss::ros2

@@ -85,6 +85,8 @@ class Transport {
     virtual void reply(EntityId service, const CallId& call, std::string_view cdr) = 0;
     /// How many subscriptions elsewhere get the messages of a publisher.
     virtual std::size_t subscribers(EntityId publisher) const = 0;
+    /// How many publishers elsewhere send to a subscription.
+    virtual std::size_t publishers(EntityId subscription) const = 0;
     /// Waits until all reliable subscriptions have confirmed all messages. False: not within this time.
     virtual bool await_confirmed(EntityId publisher, std::int64_t ms_max) = 0;
 
@@ -100,6 +102,6 @@ class Transport {
 /// Of the shared library: `roboss_ros2_transport` returns a Transport, or null and why in `problem`.
 using OpenTransport = Transport* (*)(int abi, const TransportOptions& options, Error& problem);
 /// Version of this interface; a library of another one is refused.
-inline constexpr int kTransportAbi = 1;
+inline constexpr int kTransportAbi = 2;
 
 }  // namespace roboss::ros2

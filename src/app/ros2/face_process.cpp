@@ -95,6 +95,8 @@ class FaceProcess {
 void add_face_process_options(CLI::App& command, FaceProcessOptions& options, ros2::FaceOptions& face) {
     command.add_flag("--list", options.list, "print the topics of the run's world, and end");
     command.add_option("--name", face.name, "name of the Client in the run")->capture_default_str();
+    command.add_option("--path", face.services.simulation.model_folders,
+                       "folder with models that nodes may spawn by name (may be repeated)");
     add_member_options(command, options.member);
 }
 

@@ -19,7 +19,7 @@ struct FaceProcessOptions {
 /// Opens the Transport; called once, and not for a list.
 using TransportOpener = std::function<Result<std::unique_ptr<ros2::Transport>>()>;
 
-/// Declares --list, --name and the options of a member.
+/// Declares --list, --name, --path and the options of a member.
 void add_face_process_options(CLI::App& command, FaceProcessOptions& options, ros2::FaceOptions& face);
 
 /// Shows a run until it is over or Ctrl-C. `what`: "ros2", for messages. The answer is the exit code.

@@ -31,7 +31,7 @@ void add_ros2_command(CLI::App& app, int& exit_code) {
     add_ros2_options(*command, *ros2, "--");
     add_face_process_options(*command, *options, ros2->face);
     command->callback([options, ros2, &exit_code] {
-        exit_code = show_run("ros2", *options, ros2->face, [&]() -> Result<std::unique_ptr<ros2::Transport>> {
+        exit_code = show_run("ros2", *options, face_options(*ros2), [&]() -> Result<std::unique_ptr<ros2::Transport>> {
             const Result<ros2::TransportOptions> transport = transport_options(*ros2);
             if (!transport) return transport.error();
             return ros2::open_transport(transport.value());

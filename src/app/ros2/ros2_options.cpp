@@ -56,6 +56,11 @@ void add_face_options(CLI::App& command, ros2::FaceOptions& face, const std::str
         ->check(positive_number());
     command.add_flag(prefix + "stamped", face.stamped,
                      "velocity commands are geometry_msgs/TwistStamped, not Twist");
+    command
+        .add_option(prefix + "services", face.services.simulation.prefix,
+                    "what stands in front of the names of simulation_interfaces, e.g. /gzserver (default: "
+                    "nothing)")
+        ->type_name("PREFIX");
 }
 
 void add_ros2_options(CLI::App& command, Ros2Options& o, const std::string& prefix) {
@@ -83,6 +88,8 @@ void add_ros2_options(CLI::App& command, Ros2Options& o, const std::string& pref
 void add_face_arguments(std::vector<std::string>& words, const ros2::FaceOptions& face) {
     if (face.period_s > 0) words.insert(words.end(), {"--period", fmt::format("{}", face.period_s)});
     if (face.stamped) words.emplace_back("--stamped");
+    if (!face.services.simulation.prefix.empty())
+        words.insert(words.end(), {"--services", face.services.simulation.prefix});
 }
 
 std::vector<std::string> ros2_arguments(const Ros2Options& o) {
@@ -97,6 +104,14 @@ std::vector<std::string> ros2_arguments(const Ros2Options& o) {
     add("--reach", o.reach);
     add("--discovery-server", o.discovery_server);
     return words;
+}
+
+ros2::FaceOptions face_options(const Ros2Options& o) {
+    ros2::FaceOptions options = o.face;
+    const bool is_newest = o.distro == "lyrical";
+    options.services.simulation.version = is_newest ? 2 : 1;
+    options.services.older_feedback = !is_newest;
+    return options;
 }
 
 Result<ros2::TransportOptions> transport_options(const Ros2Options& o) {

@@ -19,7 +19,7 @@ struct Ros2Options {
     std::vector<std::string> peers;
 };
 
-/// The look of topics, whoever reads them: --period and --stamped with this prefix.
+/// What topics and services look like, whoever uses them: --period, --stamped, --services with this prefix.
 void add_face_options(CLI::App& command, ros2::FaceOptions& face, const std::string& prefix);
 /// Adds them to the arguments of a process.
 void add_face_arguments(std::vector<std::string>& words, const ros2::FaceOptions& face);
@@ -28,6 +28,8 @@ void add_face_arguments(std::vector<std::string>& words, const ros2::FaceOptions
 void add_ros2_options(CLI::App& command, Ros2Options& options, const std::string& prefix);
 /// `roboss ros2` with the same options.
 std::vector<std::string> ros2_arguments(const Ros2Options& options);
+/// For the Face: with the layouts of the distribution.
+ros2::FaceOptions face_options(const Ros2Options& options);
 /// For the transport; what is not given comes from the variables of the environment that ROS 2 reads.
 Result<ros2::TransportOptions> transport_options(const Ros2Options& options);
 

@@ -81,6 +81,7 @@ Result<> RunMembers::start_process() {
 Result<> RunMembers::start_companion(const char* what, std::vector<std::string> words) {
     words.insert(words.end(), {"--simulation", network_.simulation, "--liveliness-ms",
                                std::to_string(network_.liveliness_ms)});
+    for (const std::string& folder : o_.paths) words.insert(words.end(), {"--path", folder});
     if (network_.insecure) words.emplace_back("--insecure");
     companions_.emplace_back(what, std::move(words));
     return companions_.back().start(monotonic_ms());

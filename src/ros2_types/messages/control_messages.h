@@ -71,7 +71,7 @@ struct FollowJointTrajectory {
             visit("goal_time_tolerance", m.goal_time_tolerance);
         }
     };
-    /// How it ended.
+    /// The end of the goal.
     struct Result {
         static constexpr const char* kName = "control_msgs/action/FollowJointTrajectory_Result";
         static constexpr std::int32_t kSuccessful = 0;

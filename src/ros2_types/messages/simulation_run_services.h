@@ -281,7 +281,7 @@ struct StepSimulation {
 /// simulation_interfaces/action/SimulateSteps
 struct SimulateSteps {
     static constexpr const char* kName = "simulation_interfaces/action/SimulateSteps";
-    /// What is asked for.
+    /// The goal.
     struct Goal {
         static constexpr const char* kName = "simulation_interfaces/action/SimulateSteps_Goal";
         std::uint64_t steps = 0;  ///< ticks
@@ -292,7 +292,7 @@ struct SimulateSteps {
             visit("steps", m.steps);
         }
     };
-    /// How it ended.
+    /// The end of the goal.
     struct Result {
         static constexpr const char* kName = "simulation_interfaces/action/SimulateSteps_Result";
         simulation_interfaces::Result result;  ///< how it went
@@ -303,7 +303,7 @@ struct SimulateSteps {
             visit("result", m.result);
         }
     };
-    /// How far it is.
+    /// The state on the way.
     struct Feedback {
         static constexpr const char* kName = "simulation_interfaces/action/SimulateSteps_Feedback";
         std::uint64_t completed_steps = 0;  ///< ticks

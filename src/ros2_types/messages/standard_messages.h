@@ -10,6 +10,8 @@
 #include <string>
 #include <vector>
 
+#include "ros2_types/field_types.h"
+
 namespace roboss::ros2 {
 
 /// builtin_interfaces/msg/Time

@@ -1,0 +1,89 @@
+// See face_services.h.
+#include "ros2/face_services.h"
+
+#include <algorithm>
+#include <iterator>
+#include <utility>
+
+#include "ros2/robot_names.h"
+
+namespace roboss::ros2 {
+
+namespace {
+
+constexpr std::size_t kActionsInATurn = 5;  // each takes some milliseconds
+
+/// Robots that are driven in another way (by velocities) have no trajectories.
+bool follows_trajectories(const RobotType& type) {
+    const bool has_controller = std::ranges::any_of(type.onboard, [](const OnboardInfo& onboard) {
+        return std::holds_alternative<JointTrajectoryControllerSpec>(onboard.spec.parameters);
+    });
+    return (has_controller || type.channels.empty()) && TrajectoryAction::fits(type);
+}
+
+void append(std::vector<std::string>& to, std::vector<std::string> from) {
+    std::move(from.begin(), from.end(), std::back_inserter(to));
+}
+
+}  // namespace
+
+FaceServices::FaceServices(Transport& transport, EntityId world_node, FaceServiceOptions options)
+    : transport_(transport),
+      world_node_(world_node),
+      options_(std::move(options)),
+      simulation_(transport, world_node, run_, options_.simulation),
+      parameters_(transport, world_node, "/roboss") {
+    parameters_.put("use_sim_time", parameter_value(true), "stamps are simulated time");
+}
+
+void FaceServices::use(BusClient& client, const std::vector<EntityId>& nodes) {
+    actions_.clear();
+    run_.use(client);
+    nodes_ = nodes, next_ = 0;
+    if (gazebo_ && world_ == client.model().name) return;
+    world_ = client.model().name;
+    gazebo_.reset();
+    gazebo_.emplace(transport_, world_node_, ros_name(world_), simulation_);
+}
+
+void FaceServices::put(const std::string& parameter, double value, const std::string& description) {
+    parameters_.put(parameter, parameter_value(value), description);
+}
+
+/// Some in each turn, for a thousand at once would stop the world's topics for seconds.
+void FaceServices::add_actions() {
+    for (std::size_t made = 0; next_ < nodes_.size() && made < kActionsInATurn; ++next_) {
+        const RobotId robot(next_);
+        if (!follows_trajectories(run_.model().type_of(robot))) continue;
+        const std::string name =
+            "/" + robot_names(run_.model())[next_] + "/joint_trajectory_controller/follow_joint_trajectory";
+        actions_.push_back(std::make_unique<TrajectoryAction>(transport_, nodes_[next_], name, run_, robot,
+                                                              options_.older_feedback));
+        if (++made == kActionsInATurn || next_ + 1 == nodes_.size()) transport_.announce();
+    }
+}
+
+bool FaceServices::take(const Incoming& call) {
+    const auto takes = [&](const auto& action) { return action->take(call); };
+    return simulation_.take(call) || (gazebo_ && gazebo_->take(call)) || parameters_.take(call) ||
+           std::ranges::any_of(actions_, takes);
+}
+
+bool FaceServices::advance(std::int64_t now_ms) {
+    run_.advance();
+    simulation_.advance(now_ms);
+    if (run_.tick() < 0) return run_.take_ordered();
+    add_actions();
+    for (const std::unique_ptr<TrajectoryAction>& action : actions_) action->advance(now_ms);
+    return run_.take_ordered();
+}
+
+std::vector<std::string> FaceServices::take_notices() {
+    std::vector<std::string> notices = simulation_.take_notices();
+    if (gazebo_) append(notices, gazebo_->take_notices());
+    append(notices, parameters_.take_notices());
+    for (const std::unique_ptr<TrajectoryAction>& action : actions_) append(notices, action->take_notices());
+    return notices;
+}
+
+}  // namespace roboss::ros2

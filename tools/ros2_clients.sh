@@ -1,0 +1,28 @@
+#!/usr/bin/env bash
+# Makes environments with clients of ROS 2 that nobody here wrote, from PyPI: DIR/kilted and DIR/jazzy with rclpy,
+# DIR/cyclone with Cyclone DDS. The versions stand in tests/ros2/clients. Nothing happens where they are up to date.
+#   tools/ros2_clients.sh DIR      needs 550 MB there, and Python 3.11 (PYTHON names another program of that version)
+set -euo pipefail
+here=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
+[[ $# -eq 1 ]] || { printf 'usage: tools/ros2_clients.sh DIR\n' >&2; exit 2; }
+python=${PYTHON:-python3.11}
+
+fail() {
+    printf 'ros2_clients: %s\n  remedy: %s\n' "$1" "$2" >&2
+    exit 1
+}
+
+"$python" -c 'import sys; sys.exit(sys.version_info[:2] != (3, 11))' 2>/dev/null ||
+    fail "$python is no Python 3.11, for which there are wheels of rclpy" "PYTHON=... names one"
+mkdir -p "$1"
+exec 9>"$1/lock"
+flock 9  # another start may be making them
+for name in kilted jazzy cyclone; do
+    packages=$here/tests/ros2/clients/$name.txt venv=$1/$name
+    cmp -s "$packages" "$venv/stamp" && continue
+    rm -rf "$venv"
+    "$python" -m venv "$venv" || fail "$python cannot make an environment" "apt install python3-venv"
+    "$venv/bin/python" -m pip install --quiet --disable-pip-version-check --no-deps -r "$packages" ||
+        fail "pip could not install the packages of $packages (its message is above)" "no network, or a full disk?"
+    cp "$packages" "$venv/stamp"
+done
