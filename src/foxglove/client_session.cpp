@@ -114,7 +114,7 @@ void ClientSession::upgrade(const std::string& subprotocol) {
     socket_.read_message_max(kFrameBytesMost);
     socket_.auto_fragment(false);
     socket_.async_accept(request_, [self = shared_from_this()](beast::error_code error) {
-        if (error || self->has_ended_) return self->close();
+        if (error || self->has_ended_ || !self->server_.has_room()) return self->close();
         const std::weak_ptr<ClientSession> weak = self;
         self->client_ =
             self->server_.hub().enter(self->peer_, [weak, executor = self->socket_.get_executor()] {

@@ -114,6 +114,10 @@ class Hub {
         std::size_t publishers = 0;
         std::vector<EntityId> subscriptions{};
     };
+    struct PublishedChannel {
+        ClientChannel channel;
+        std::string told;  // why its messages do not arrive, as it was told
+    };
     struct Client {
         std::string name;
         std::function<void()> wake;
@@ -128,7 +132,7 @@ class Hub {
         std::vector<std::uint32_t> gone_channels{}, gone_services{};  // of these, since the last announcement
         std::map<std::uint32_t, EntityId> publisher_of{};             // by subscription
         std::map<EntityId, std::uint32_t> subscription_of{};
-        std::map<std::uint32_t, ClientChannel> channels{};
+        std::map<std::uint32_t, PublishedChannel> channels{};
         std::set<std::pair<EntityId, std::uint32_t>> calls{};  // that have no reply yet
         std::set<std::string> graph_topics{}, graph_services{};
         std::int64_t received = 0;  // messages and calls
@@ -170,6 +174,7 @@ class Hub {
     void unsubscribe(Client& client, std::uint32_t subscription);
     std::string refusal(const Client& client, const ClientChannel& channel) const;
     std::string problem_of(const ClientChannel& channel) const;
+    void report(Client& client, std::uint32_t channel, Level level, const std::string& problem);
     bool take_message(ClientNumber number, Client& client, const ClientMessage& message);
     bool take_call(ClientNumber number, Client& client, const ServiceCall& call);
     std::string problem_of(const Client& client, const ServiceCall& call) const;

@@ -1,5 +1,6 @@
 // The clients' half of the Hub: what they ask for.
 #include <algorithm>
+#include <utility>
 
 #include "foxglove/hub.h"
 
@@ -147,6 +148,12 @@ std::string Hub::problem_of(const ClientChannel& channel) const {
     return {};
 }
 
+/// Says it once: viewers publish many times a second.
+void Hub::report(Client& client, std::uint32_t channel, Level level, const std::string& problem) {
+    if (std::exchange(client.channels.at(channel).told, problem) == problem || problem.empty()) return;
+    send(client, status(level, problem, "channel-" + std::to_string(channel)));
+}
+
 /// A channel that nothing subscribes to is kept: its robot may come later.
 void Hub::obey(Client& client, const ClientAdvertise& request) {
     for (const ClientChannel& channel : request.channels) {
@@ -154,9 +161,8 @@ void Hub::obey(Client& client, const ClientAdvertise& request) {
             send(client, status(Level::kError, why));
             continue;
         }
-        client.channels[channel.id] = channel;
-        if (const std::string problem = problem_of(channel); !problem.empty())
-            send(client, status(Level::kWarning, problem, "channel-" + std::to_string(channel.id)));
+        client.channels[channel.id] = {channel, {}};
+        report(client, channel.id, Level::kWarning, problem_of(channel));
     }
 }
 
@@ -172,19 +178,17 @@ void Hub::obey(Client& client, const WatchGraph& request) {
 
 bool Hub::take_message(ClientNumber number, Client& client, const ClientMessage& message) {
     const auto channel = client.channels.find(message.channel);
-    std::string problem;
-    if (channel == client.channels.end())
-        problem = "this client has no channel " + std::to_string(message.channel);
-    else if (message.payload.size() < kEncapsulation)
-        problem = channel->second.topic + ": the message is too short";
-    else
-        problem = problem_of(channel->second);
-    if (!problem.empty()) {
-        send(client, status(Level::kError, problem, "channel-" + std::to_string(message.channel)));
+    if (channel == client.channels.end()) {
+        send(client, status(Level::kError, "this client has no channel " + std::to_string(message.channel)));
         return false;
     }
+    const ClientChannel& about = channel->second.channel;
+    const bool is_short = message.payload.size() < kEncapsulation;
+    const std::string problem = is_short ? about.topic + ": the message is too short" : problem_of(about);
+    report(client, message.channel, Level::kError, problem);
+    if (!problem.empty()) return false;
     const ros2::CallId id = call_id(number, ++client.received);
-    for (const EntityId entity : topics_.at(channel->second.topic).subscriptions) {
+    for (const EntityId entity : topics_.at(about.topic).subscriptions) {
         if (inbox_.bytes() + message.payload.size() > kInboxBytesMost) {
             add_notice("messages of " + client.name + " are lost: they arrive too fast [too-fast]");
             return true;

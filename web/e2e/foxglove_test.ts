@@ -9,7 +9,7 @@ import { type Channel, FoxgloveClient, type IWebSocket, type ServerInfo } from "
 import WebSocket from "ws";
 import { end, PROGRAM } from "./processes";
 
-const WORLD = join(dirname(process.env.ROBOSS_WORLD ?? ""), "scouts.sdf");
+const WORLD = join(dirname(process.env.ROBOSS_WORLD ?? ""), "../web/e2e/foxglove.sdf");
 const SKIP = { skip: PROGRAM === "" ? "it needs the program" : false, timeout: 120_000 };
 const TWIST = `Vector3 linear
 Vector3 angular
@@ -20,8 +20,15 @@ float64 y
 float64 z`;
 
 interface Transform {
+    header: { frame_id: string };
     child_frame_id: string;
     transform: { translation: { x: number; y: number; z: number } };
+}
+interface Image {
+    width: number;
+    height: number;
+    encoding: string;
+    data: Uint8Array;
 }
 interface Scan {
     header: { frame_id: string; stamp: { sec: number } };
@@ -98,7 +105,7 @@ after(async () => {
 test("both subprotocols are spoken, and channels have definitions of ROS 2", SKIP, async () => {
     for (const subprotocol of ["foxglove.sdk.v1", "foxglove.websocket.v1"]) {
         const viewer = new Viewer(subprotocol);
-        const scan = await viewer.channel("/scout_0/scan");
+        const scan = await viewer.channel("/rover/scan");
         assert.equal(viewer.socket.protocol, subprotocol);
         assert.deepEqual(viewer.info?.supportedEncodings, ["cdr"]);
         assert.equal(scan.encoding, "cdr");
@@ -112,20 +119,22 @@ test("both subprotocols are spoken, and channels have definitions of ROS 2", SKI
 
 test("scans, transforms and what is sent once are read by the decoder of Foxglove", SKIP, async () => {
     const viewer = new Viewer("foxglove.sdk.v1");
-    let scan: Scan | undefined,
+    let image: Image | undefined,
+        scan: Scan | undefined,
         description: { data: string } | undefined,
         fixed: { transforms: Transform[] } | undefined;
-    await viewer.read<Scan>("/scout_0/scan", (message) => (scan = message));
-    await viewer.read<{ data: string }>("/scout_0/robot_description", (message) => (description = message));
+    await viewer.read<Scan>("/rover/scan", (message) => (scan = message));
+    await viewer.read<{ data: string }>("/rover/robot_description", (message) => (description = message));
     await viewer.read<{ transforms: Transform[] }>("/tf_static", (message) => (fixed = message));
+    await viewer.read<Image>("/rover/eye/image_raw", (message) => (image = message));
+    const picture = await until("a picture", () => image);
+    assert.equal(picture.data.length, 160 * 120 * 3);
+    assert.ok(new Set(picture.data).size > 10, "it shows something");
     const seen = await until("a scan", () => scan);
-    assert.ok(seen.ranges.length > 10);
-    assert.match(seen.header.frame_id, /^scout_0\//);
-    assert.ok(
-        seen.ranges.every((range) => range > 0),
-        "ranges are positive, or inf",
-    );
-    assert.match((await until("a description", () => description)).data, /<robot name="scout_0"/);
+    assert.equal(seen.ranges.length, 91);
+    assert.ok(Math.abs(seen.ranges[45] - 7.9) < 0.1, `the wall ahead is ${seen.ranges[45]} m away`);
+    assert.match(seen.header.frame_id, /^rover\//);
+    assert.match((await until("a description", () => description)).data, /<robot name="rover"/);
     assert.ok((await until("fixed frames", () => fixed)).transforms.length > 0);
     await until("the time", () => (viewer.time > 0n ? viewer.time : undefined));
     viewer.close();
@@ -135,16 +144,16 @@ test("a published Twist drives a robot", SKIP, async () => {
     const viewer = new Viewer("foxglove.websocket.v1");
     const places = new Map<string, number[]>();
     await viewer.read<{ transforms: Transform[] }>("/tf", ({ transforms }) => {
-        for (const { child_frame_id, transform } of transforms) {
+        for (const { header, child_frame_id, transform } of transforms) {
             const { x, y } = transform.translation;
-            places.set(child_frame_id, [x, y]);
+            if (header.frame_id === "world") places.set(child_frame_id, [x, y]);
         }
     });
-    const base = await until("the robot", () => [...places.keys()].find((frame) => frame.startsWith("scout_1/")));
+    const base = await until("the robot", () => [...places.keys()].find((frame) => frame.startsWith("rover/")));
     const start = places.get(base) ?? [];
     const writer = new MessageWriter(parse(TWIST, { ros2: true }));
     const channel = viewer.client.advertise({
-        topic: "/scout_1/cmd_vel",
+        topic: "/rover/cmd_vel",
         encoding: "cdr",
         schemaName: "geometry_msgs/msg/Twist",
     });
@@ -166,7 +175,7 @@ test("wrong input is answered by a status, and other clients do not suffer", SKI
         viewer = new Viewer("foxglove.sdk.v1");
     await viewer.channel("/tf");
     viewer.socket.send("{");
-    viewer.client.advertise({ topic: "/scout_0/cmd_vel", encoding: "protobuf", schemaName: "x" });
+    viewer.client.advertise({ topic: "/rover/cmd_vel", encoding: "protobuf", schemaName: "x" });
     viewer.client.subscribe(1_000_000);
     await until("three answers", () => (viewer.problems.length >= 3 ? true : undefined));
     viewer.client.close();
