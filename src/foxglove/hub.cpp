@@ -208,7 +208,8 @@ std::size_t Hub::publishers(EntityId entity) const {
     if (subscription == nullptr) return 0;
     std::size_t count = 0;
     for (const auto& [number, client] : clients_)
-        for (const auto& [id, channel] : client.channels) count += channel.topic == subscription->topic;
+        for (const auto& [id, channel] : client.channels)
+            count += channel.channel.topic == subscription->topic;
     return count;
 }
 
