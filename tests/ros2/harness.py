@@ -8,7 +8,7 @@ import threading
 import time
 
 PATIENCE = 20  # s
-# Of Fast DDS 2.9.1, which ends its process when it gets this: a flaw in the reading of discovery.
+# Fast DDS 2.9.1 ends its process when it gets this: a flaw in the reading of discovery.
 BAD_DATAGRAM = b"RTPS\x02\x03\x01\x0f" + bytes(12) + b"\x80\x01\x38\x00" + bytes(57)
 
 
