@@ -14,7 +14,7 @@ import time
 import unittest
 from pathlib import Path
 
-from harness import BAD_DATAGRAM, Process, enter_own_network, python_of
+from harness import BAD_DATAGRAM, CYCLONE_OF_HOST, Process, enter_own_network, python_of
 
 HERE = Path(__file__).resolve().parent
 ROBOSS, WORLD, CLIENTS, NAME = Path(sys.argv[1]), Path(sys.argv[2]), Path(sys.argv[3]), sys.argv[4]
@@ -44,7 +44,7 @@ class WithRun(unittest.TestCase):
 
     def node(self, program, *words):
         python, environment = python_of(CLIENTS / NAME)
-        node = Process([python, "-B", HERE / "nodes" / program, *words], environment)
+        node = Process([python, "-B", HERE / "nodes" / program, *words], {**environment, "CYCLONEDDS_URI": CYCLONE_OF_HOST})
         self.addCleanup(lambda: node.process.poll() is None and (node.process.kill(), node.process.wait()))
         return node
 
@@ -118,7 +118,7 @@ class Face(WithRun):
 class Services(WithRun):
     def test_a_client_of_simulation_interfaces_operates_the_run(self):
         run = self.start("--duration", "1000")
-        seen = json.loads(self.node("operator.py").wait_for("", 90) or "{}")
+        seen = json.loads(self.node("run_operator.py").wait_for("", 90) or "{}")
         done, failed = 1, 4
         self.assertEqual([seen[name] for name in ("first", "paused", "last")], [1, 2, 1])
         self.assertEqual({name: seen[name][0] for name in ("pause", "step", "spawn", "delete", "play")},

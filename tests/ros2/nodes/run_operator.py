@@ -1,6 +1,6 @@
 """A participant of Cyclone DDS that operates a run by simulation_interfaces, as rmw_cyclonedds would. Prints JSON.
 
-Usage: operator.py      on a run with the robot turtle_0
+Usage: run_operator.py      on a run with the robot turtle_0
 """
 import json
 import time
