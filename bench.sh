@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Sets up, builds and runs the benchmarks: ./bench.sh [NAME] [flags]; without a name it lists them.
-# A name is a program of its own (peers, accuracy, table1, bus, viewer, learning, cameras_beside_mujoco, smallest), or a Google Benchmark of roboss-bench; flags go on to it.
+# A name is a program of its own (peers, accuracy, table1, bus, ros2, viewer, learning, cameras_beside_mujoco, smallest), or a Google Benchmark of roboss-bench; flags go on to it.
 # Rows carry commit, compiler, CPU, world and number of robots; the same rows as JSON go to build/bench/NAME.json.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")"
@@ -64,6 +64,14 @@ bus() {
     build roboss-bus
     build/release/bin/roboss-bus --json build/bench/bus.json "$@"
     printf 'rows as JSON: build/bench/bus.json\n'
+}
+
+# Fleets with a node of ROS 2 that drives them all: rates, CPU time, real-time factor (docs/ros2.md).
+ros2() {
+    tools/setup.sh build bench
+    tools/build.sh release -DROBOSS_BENCHMARKS=ON roboss roboss_fastdds roboss-fleet-peer
+    bench/ros2/scale.py build/release/bin build/bench/ros2.json "$@"
+    printf 'rows as JSON: build/bench/ros2.json\n'
 }
 
 # What browsers cost a run of 2000 moving cars: bytes, CPU of the gateway, speed of the simulation (docs/viewer.md).
@@ -135,6 +143,6 @@ smallest() {
 }
 
 case ${1:-} in
-    smallest | peers | accuracy | table1 | bus | viewer | learning | cameras_beside_mujoco) "$@" ;;
+    smallest | peers | accuracy | table1 | bus | ros2 | viewer | learning | cameras_beside_mujoco) "$@" ;;
     *) google_benchmark "$@" ;;
 esac

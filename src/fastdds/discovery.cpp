@@ -1,4 +1,4 @@
-// How a participant finds others and is found, as nodes of ROS 2 do
+// The settings by which a participant finds others and is found, as nodes of ROS 2 do
 // (rmw_fastrtps, participant.cpp). UDP alone: shared memory would need a folder that both sides
 // see. There is no list of allowed interfaces: with one, nodes of Jazzy and Kilted do not see this process
 // where the host has a network.

@@ -13,7 +13,7 @@ namespace {
 
 const Duration kHeartbeat{0, 100'000'000};
 
-// What readers and writers have in common.
+// The common part of readers and writers.
 template <class EndpointQos>
 void set_qos(EndpointQos& to, const ros2::Qos& qos, const std::string& hash) {
     to.reliability().kind =

@@ -17,7 +17,7 @@ namespace roboss::fastdds {
 /// Safe to use from many threads.
 class Inbox {
   public:
-    /// Of all entities together.
+    /// Limits of all entities together.
     struct Limits {
         std::size_t messages = 20'000;  ///< that wait
         std::size_t bytes = 256 << 20;  ///< of the messages that wait

@@ -17,7 +17,7 @@ Guid to_guid(const rtps::GUID_t& guid);
 /// The same as Fast DDS has it.
 rtps::GUID_t to_fastdds(const Guid& guid);
 
-/// How a participant is to be found and reached. An Error: a host has no address.
+/// The settings by which a participant is found and reached. An Error: a host has no address.
 Result<dds::DomainParticipantQos> participant_qos(const ros2::TransportOptions& options);
 
 /// See the top of the file. One thread uses it.

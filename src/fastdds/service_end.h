@@ -15,7 +15,7 @@ namespace roboss::fastdds {
 /// One thread uses it.
 class ServiceEnd {
   public:
-    /// What it works with.
+    /// The parts that it works with.
     struct Parts {
         Participant& participant;
         Peers& peers;

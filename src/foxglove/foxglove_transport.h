@@ -37,7 +37,7 @@ class FoxgloveTransport final : public ros2::Transport {
     static Result<std::unique_ptr<FoxgloveTransport>> listen(const FoxgloveOptions& options);
     ~FoxgloveTransport() override;
 
-    /// What users open: "ws://localhost:8765".
+    /// The address that users open: "ws://localhost:8765".
     std::string url() const;
     /// Clients that are connected.
     std::size_t clients() const;

@@ -32,7 +32,7 @@ struct Frame {
     std::string head;
     std::shared_ptr<const std::string> body{};  ///< null: there is none
     std::uint64_t topic = kNoTopic;             ///< subscription of the client, or one of the above
-    /// Of its memory.
+    /// Limits of its memory.
     std::size_t size() const { return head.size() + (body ? body->size() : 0); }
 };
 

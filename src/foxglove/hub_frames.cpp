@@ -1,4 +1,4 @@
-// What the Hub sends to a client, and in which order: what it must have, then topics that are new to it, then
+// Frames that the Hub sends to a client, in this order: those it must have, topics that are new to it,
 // messages, the oldest first.
 #include <chrono>
 #include <utility>

@@ -51,7 +51,7 @@ class KeepLast {
     }
 
     bool empty() const { return items_.empty(); }
-    /// Of all items.
+    /// Limits of all items together.
     std::size_t bytes() const { return bytes_; }
     /// How many items of a topic wait.
     std::size_t waiting(std::uint64_t topic) const {

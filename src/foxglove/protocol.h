@@ -43,7 +43,7 @@ struct ClientAdvertise {
 struct ClientUnadvertise {
     std::vector<std::uint32_t> channels;
 };
-/// Whether it wants to know who publishes and who subscribes.
+/// True if it wants to know who publishes and who subscribes.
 struct WatchGraph {
     bool wanted = false;
 };
@@ -57,9 +57,9 @@ struct ServiceCall {
     std::uint32_t service = 0, call = 0;
     std::string_view encoding, payload;
 };
-/// What a text frame says.
+/// The request of a text frame.
 using TextRequest = std::variant<Subscribe, Unsubscribe, ClientAdvertise, ClientUnadvertise, WatchGraph>;
-/// What a binary frame says.
+/// The request of a binary frame.
 using BinaryRequest = std::variant<ClientMessage, ServiceCall>;
 
 /// An Error, "bad-message": it is none of the protocol; "not-supported": of a capability that is not offered.

@@ -1,4 +1,4 @@
-// See face.h. What it shows and takes: the other half, the entities of the transport, is in face_topics.cpp.
+// See face.h. This half shows and obeys; the other, face_topics.cpp, keeps the entities of the transport.
 #include "ros2/face.h"
 
 #include <algorithm>

@@ -23,7 +23,7 @@
 
 namespace roboss::ros2 {
 
-/// How a Face shows a run.
+/// Options of a Face.
 struct FaceOptions {
     std::string name = "ros2";    ///< of the Client
     double period_s = 0;          ///< between two looks at the world; 0: that of the fastest sensor
@@ -99,8 +99,8 @@ class Face {
     std::map<EntityId, std::size_t> command_of_;            // in commands_->topics()
     std::set<std::pair<std::size_t, std::size_t>> broken_;  // robot and sensor that could not measure
 
-    // Of lockstep: subscribers of topics_->topics() when the observation was published; before, when they
-    // changed last.
+    // In lockstep: the subscribers of topics_->topics() when the observation was published; before that, when
+    // they changed last.
     std::vector<std::size_t> subscribers_;
     std::int64_t settled_ms_ = 0;
     bool ready_ = false;

@@ -36,7 +36,7 @@ class FaceServices {
     bool take(const Incoming& call);
     /// A turn. True: orders were given.
     bool advance(std::int64_t now_ms);
-    /// What went wrong since the last call, one line each.
+    /// Problems since the last call, one line each.
     std::vector<std::string> take_notices();
 
   private:

@@ -14,7 +14,7 @@ void Face::open_nodes() {
         now[name] = before.empty() ? transport_.add_node("/" + name, "robot") : before.mapped();
     }
     for (const auto& [name, node] : std::exchange(nodes_, std::move(now))) transport_.remove(node);
-    // What the removed nodes had is gone with them.
+    // The entities of removed nodes are gone with them.
     for (Endpoints* endpoints : {&publishers_, &subscriptions_})
         std::erase_if(*endpoints, [&](const auto& entry) { return node_of(entry.first) == 0; });
 }

@@ -26,7 +26,7 @@ class Lockstep {
     /// A message of a topic arrived. `stamp_ns`: its own stamp, if it has one that is not 0. False: nobody
     /// waits for this topic, and the message must not have an effect.
     bool take(std::size_t topic, std::string bytes, std::optional<std::int64_t> stamp_ns);
-    /// Whether every topic has its message of this period.
+    /// True if every topic has its message of this period.
     bool is_complete() const { return open_ == 0; }
     /// All topics that it waits for, in RobotCommands::topics().
     std::vector<std::size_t> topics() const;

@@ -22,7 +22,7 @@ namespace roboss::ros2 {
 
 /// A topic by which a robot is driven.
 struct CommandTopic {
-    /// What its messages are, and what they stand for.
+    /// The type of its messages and their meaning.
     enum class Kind {
         kTwist,         ///< a velocity
         kTwistStamped,  ///< a velocity and the time of what it answers to

@@ -1,4 +1,4 @@
-// What a message asks a robot for.
+// Messages become the orders that they ask for.
 #include "ros2/robot_commands.h"
 
 #include <gtest/gtest.h>

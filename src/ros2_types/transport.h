@@ -19,7 +19,7 @@
 
 namespace roboss::ros2 {
 
-/// How a topic's messages are delivered.
+/// Delivery of the messages of a topic.
 struct Qos {
     bool is_reliable = true;   ///< lost messages are sent again
     bool is_latched = false;   ///< who comes later gets the last messages, too (transient local)
@@ -28,7 +28,7 @@ struct Qos {
 
 /// Where other nodes may be.
 struct TransportOptions {
-    /// How far discovery reaches (ROS_AUTOMATIC_DISCOVERY_RANGE).
+    /// The reach of discovery (ROS_AUTOMATIC_DISCOVERY_RANGE).
     enum class Reach { kOff, kLocalhost, kSubnet };
     std::uint32_t domain = 0;         ///< ROS_DOMAIN_ID, 0 to 232
     Reach reach = Reach::kLocalhost;  ///< of automatic discovery
@@ -90,7 +90,7 @@ class Transport {
     /// Waits until all reliable subscriptions have confirmed all messages. False: not within this time.
     virtual bool await_confirmed(EntityId publisher, std::int64_t ms_max) = 0;
 
-    /// What has arrived, in the order of its arrival; waits for the first at most so long.
+    /// Everything that has arrived, in the order of its arrival; waits for the first at most so long.
     virtual std::vector<Incoming> take(std::int64_t wait_ms) = 0;
     /// Calls `ring` from any thread when something has arrived; `ring` must not call the Transport.
     virtual void on_arrival(std::function<void()> ring) = 0;
@@ -99,7 +99,7 @@ class Transport {
     virtual std::vector<std::string> take_notices() = 0;
 };
 
-/// Of the shared library: `roboss_ros2_transport` returns a Transport, or null and why in `problem`.
+/// `roboss_ros2_transport` of the shared library returns a Transport, or null and why in `problem`.
 using OpenTransport = Transport* (*)(int abi, const TransportOptions& options, Error& problem);
 /// Version of this interface; a library of another one is refused.
 inline constexpr int kTransportAbi = 2;

@@ -122,6 +122,18 @@ TEST_F(RunWithNodes, InLockstepTheHashIsThatOfTheMessages) {
     EXPECT_EQ(hashes.size(), 1u);
 }
 
+TEST_F(RunWithNodes, SeeThePausedWorldAtAnyTick) {
+    start({});
+    run(33);
+    for (int turn = 0; turn < 200 && face->client().tick() != 33; ++turn) {
+        simulation->serve();
+        face->advance(*bus_);
+    }
+    EXPECT_EQ(face->client().tick(), 33) << "its period is 10 ticks";
+    run(47);
+    EXPECT_GE(face->client().tick(), 40);
+}
+
 TEST_F(RunWithNodes, AnotherWorldKeepsWhatItStillHas) {
     start({});
     const ros2::EntityId drive = transport.find("/robot/cmd_vel"), gone = transport.find("/other/cmd_vel");

@@ -1,6 +1,6 @@
-"""roboss run --ros2 beside nodes of rclpy, on a network of their own that has only this host.
+"""roboss run --ros2 beside nodes of rclpy and Cyclone DDS, on a network of their own that has only this host.
 
-Usage: face_test.py ROBOSS WORLD CLIENTS NAME [unittest's words]    NAME: kilted or jazzy; CLIENTS: the folder that
+Usage: face_test.py ROBOSS WORLD CLIENTS NAME [unittest's words]    NAME: kilted, jazzy or cyclone; CLIENTS: the folder that
 tools/ros2_clients.sh made. Exit code 77: it cannot be tried here, and why.
 """
 import json
@@ -14,7 +14,7 @@ import time
 import unittest
 from pathlib import Path
 
-from harness import BAD_DATAGRAM, Process, enter_own_network, python_of
+from harness import BAD_DATAGRAM, CYCLONE_OF_HOST, Process, enter_own_network, python_of
 
 HERE = Path(__file__).resolve().parent
 ROBOSS, WORLD, CLIENTS, NAME = Path(sys.argv[1]), Path(sys.argv[2]), Path(sys.argv[3]), sys.argv[4]
@@ -44,7 +44,7 @@ class WithRun(unittest.TestCase):
 
     def node(self, program, *words):
         python, environment = python_of(CLIENTS / NAME)
-        node = Process([python, "-B", HERE / "nodes" / program, *words], environment)
+        node = Process([python, "-B", HERE / "nodes" / program, *words], {**environment, "CYCLONEDDS_URI": CYCLONE_OF_HOST})
         self.addCleanup(lambda: node.process.poll() is None and (node.process.kill(), node.process.wait()))
         return node
 
@@ -115,9 +115,23 @@ class Face(WithRun):
         self.assertIn("it is started again [restarted]", log)
 
 
+class Services(WithRun):
+    def test_a_client_of_simulation_interfaces_operates_the_run(self):
+        run = self.start("--duration", "1000")
+        seen = json.loads(self.node("run_operator.py").wait_for("", 90) or "{}")
+        done, failed = 1, 4
+        self.assertEqual([seen[name] for name in ("first", "paused", "last")], [1, 2, 1])
+        self.assertEqual({name: seen[name][0] for name in ("pause", "step", "spawn", "delete", "play")},
+                         dict.fromkeys(("pause", "step", "spawn", "delete", "play"), done), seen)
+        self.assertEqual(seen["step while it plays"][0], failed)
+        self.assertEqual(seen["again"][0], 101, "NAME_NOT_UNIQUE")
+        self.assertNotEqual(seen["nobody"][0], done)
+        self.assertIsNone(run.poll())
+
+
 def main():
     enter_own_network(CLIENTS / NAME)
-    tests = unittest.defaultTestLoader.loadTestsFromTestCase(Face)
+    tests = unittest.defaultTestLoader.loadTestsFromTestCase(Services if NAME == "cyclone" else Face)
     if len(sys.argv) > 5:
         tests = unittest.TestSuite(test for test in tests if any(word in test.id() for word in sys.argv[5:]))
     sys.exit(not unittest.TextTestRunner(verbosity=2).run(tests).wasSuccessful())

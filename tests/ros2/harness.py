@@ -8,8 +8,12 @@ import threading
 import time
 
 PATIENCE = 20  # s
-# Of Fast DDS 2.9.1, which ends its process when it gets this: a flaw in the reading of discovery.
+# Fast DDS 2.9.1 ends its process when it gets this: a flaw in the reading of discovery.
 BAD_DATAGRAM = b"RTPS\x02\x03\x01\x0f" + bytes(12) + b"\x80\x01\x38\x00" + bytes(57)
+# The configuration that rmw_cyclonedds gives to Cyclone DDS where discovery reaches this host alone.
+CYCLONE_OF_HOST = """<CycloneDDS><Domain><General><AllowMulticast>false</AllowMulticast></General><Discovery>
+<ParticipantIndex>auto</ParticipantIndex><Peers><Peer address="localhost"/></Peers><MaxAutoParticipantIndex>32
+</MaxAutoParticipantIndex></Discovery></Domain></CycloneDDS>"""
 
 
 class Process:

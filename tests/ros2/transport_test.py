@@ -11,16 +11,12 @@ import time
 import unittest
 from pathlib import Path
 
-from harness import BAD_DATAGRAM, PATIENCE, Process, enter_own_network, python_of
+from harness import BAD_DATAGRAM, CYCLONE_OF_HOST, PATIENCE, Process, enter_own_network, python_of
 
 HERE = Path(__file__).resolve().parent
 PROBE, CLIENTS, NAME = Path(sys.argv[1]), Path(sys.argv[2]), sys.argv[3]
 STRING = "RIHS01_df668c740482bbd48fb39d76a70dfd4bd59db1288021743503259e948f6b1a18"
 TWIST = "RIHS01_9c45bf16fe0983d80e3cfe750d6835843d265a9a6c46bd2e609fcddde6fb8d2a"
-# What rmw_cyclonedds says to Cyclone DDS where discovery reaches this host alone.
-CYCLONE_OF_HOST = """<CycloneDDS><Domain><General><AllowMulticast>false</AllowMulticast></General><Discovery>
-<ParticipantIndex>auto</ParticipantIndex><Peers><Peer address="localhost"/></Peers><MaxAutoParticipantIndex>32
-</MaxAutoParticipantIndex></Discovery></Domain></CycloneDDS>"""
 
 
 def peer(*words, **more):

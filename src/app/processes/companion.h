@@ -20,7 +20,7 @@ class Companion {
     Result<> start(std::int64_t now_ms);
     /// To be called now and then. Starts it again if it has ended; an Error: it refuses to run.
     Result<> look(std::int64_t now_ms);
-    /// What it printed, and that it was started again, since the last call.
+    /// Lines that it printed since the last call, and that it was started again.
     std::vector<std::string> take_notices();
     /// Waits until it has ended by itself, at most so long; then kills it.
     void await_exit(std::int64_t ms_max);

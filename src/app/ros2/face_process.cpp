@@ -69,7 +69,7 @@ class FaceProcess {
 
     int report_refusal(const std::string& why) {
         member_.report_error(error_of_text("the run refuses it: ", why, "start it again", "refused"));
-        return kBadInput;
+        return kRunFailed;  // not kBadInput: a run then starts it again
     }
 
     int list() {

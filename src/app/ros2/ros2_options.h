@@ -19,7 +19,7 @@ struct Ros2Options {
     std::vector<std::string> peers;
 };
 
-/// What topics and services look like, whoever uses them: --period, --stamped, --services with this prefix.
+/// Declares --period, --stamped and --services with this prefix: the form of topics and services.
 void add_face_options(CLI::App& command, ros2::FaceOptions& face, const std::string& prefix);
 /// Adds them to the arguments of a process.
 void add_face_arguments(std::vector<std::string>& words, const ros2::FaceOptions& face);

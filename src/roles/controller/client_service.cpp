@@ -11,6 +11,8 @@ namespace roboss {
 
 namespace {
 
+constexpr Tick kNeverLooks = Tick{1} << 32;  // a period of one that only gives orders
+
 constexpr std::size_t kRefusalsKept = 1'000;
 
 bool looks_only(const Rights* rights) {
@@ -285,10 +287,19 @@ void ClientService::queue_observations() {
         if (observes(seats_[i], directory_.tick())) queue_observation(ClientId(i));
 }
 
+void ClientService::show_rest() {
+    for (std::size_t i = 0; i < seats_.size(); ++i) {
+        const ClientSeat& seat = seats_[i];
+        const bool looks = seat.serves() && seat.observer && seat.period < kNeverLooks;
+        if (looks && seat.shown != directory_.tick()) queue_observation(ClientId(i));
+    }
+}
+
 void ClientService::queue_observation(ClientId id) {
     ClientSeat& seat = seats_[id.index()];
     if (!seat.synchronous && !seat.unanswered.empty())
         return;  // it is busy with an earlier observation; the world does not wait
+    seat.shown = directory_.tick();
     seat.unanswered.push_back(directory_.tick());
     seat.sent_ms = 0;
     directory_.want(id);

@@ -33,6 +33,7 @@ struct ClientSeat {
         std::uint64_t reply = 0;
         RefusedOrder order;
     };
+    Tick shown = -1;     // the last observation that was queued
     Tick answered = -1;  // the last observation to which its reply came
     /// Numbers of its orders: the greatest so far, and that before its present process. Those of a successor
     /// continue them.
@@ -84,6 +85,8 @@ class ClientService {
     void acknowledge(Bus& bus);
     /// The committed tick is observed by the Clients whose turn it is.
     void queue_observations();
+    /// The world rests at the committed tick: observers see it, too, if their period does not lead there.
+    void show_rest();
     /// States have other holders: observations are sent again at once.
     void holders_changed() { due_ = true; }
     void send_observations(Bus& bus, const Roster& roster);

@@ -90,9 +90,17 @@ void Controller::advance(Bus& bus) {
     if (round_) send_assignments(bus);
     advance_checkpoint(bus);
     clients_.acknowledge(bus);
+    if (rests_for_long(bus.now_ms())) clients_.show_rest();
     clients_.send_observations(bus, roster_);
     send_heartbeats(bus);
     check_phase();
+}
+
+/// A paused run; not one that waits for its next window in real time.
+bool Controller::rests_for_long(std::int64_t now_ms) {
+    constexpr std::int64_t kLong_ms = 50;
+    if (!resting() || rest_tick_ != tick()) rest_tick_ = resting() ? tick() : -1, rest_since_ms_ = now_ms;
+    return rest_tick_ >= 0 && now_ms - rest_since_ms_ >= kLong_ms;
 }
 
 void Controller::enter(Phase phase) {

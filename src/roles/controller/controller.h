@@ -148,6 +148,7 @@ class Controller {
   private:
     void enter(Phase phase);
     void check_phase() const;
+    bool rests_for_long(std::int64_t now_ms);
 
     // Messages in.
     void handle(Bus& bus, Envelope& envelope);
@@ -210,6 +211,8 @@ class Controller {
     std::vector<std::uint64_t> hashes_, next_hashes_;  // by RobotId: committed; of the round
     Islands islands_;                                  // of the last window committed
     std::optional<Round> round_;                       // in progress
+    Tick rest_tick_ = -1;                              // at which it rests
+    std::int64_t rest_since_ms_ = 0;
     std::uint32_t epoch_ = 0;
     std::uint64_t window_ = 0;
     bool measures_ = false;
