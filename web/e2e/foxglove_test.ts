@@ -5,7 +5,7 @@ import { dirname, join } from "node:path";
 import { after, before, test } from "node:test";
 import { parse } from "@foxglove/rosmsg";
 import { MessageReader, MessageWriter } from "@foxglove/rosmsg2-serialization";
-import { type Channel, FoxgloveClient, type IWebSocket, type ServerInfo } from "@foxglove/ws-protocol";
+import { type Channel, FoxgloveClient, type IWebSocket, type ServerInfo, type Service } from "@foxglove/ws-protocol";
 import WebSocket from "ws";
 import { end, PROGRAM } from "./processes";
 
@@ -42,11 +42,13 @@ let child: ChildProcess | undefined,
 /** A viewer: what the server said, and the channels by topic. */
 class Viewer {
     readonly channels = new Map<string, Channel>();
+    readonly services = new Map<string, Service>();
     readonly problems: string[] = [];
     info: ServerInfo | undefined;
     time = 0n;
     readonly client: FoxgloveClient;
     readonly socket: WebSocket;
+    private calls = 0;
     private readonly hear = new Map<number, (data: ArrayBufferView) => void>();
 
     constructor(subprotocol: string) {
@@ -56,6 +58,10 @@ class Viewer {
         this.client.on("advertise", (channels) => {
             for (const channel of channels) this.channels.set(channel.topic, channel);
         });
+        this.client.on("advertiseServices", (services) => {
+            for (const service of services) this.services.set(service.name, service);
+        });
+        this.client.on("serviceCallFailure", ({ message }) => this.problems.push(message));
         this.client.on("status", (status) => this.problems.push(status.message));
         this.client.on("error", (error) => this.problems.push(error.message));
         this.client.on("time", ({ timestamp }) => (this.time = timestamp));
@@ -71,6 +77,22 @@ class Viewer {
         const channel = await this.channel(topic);
         const reader = new MessageReader(parse(channel.schema, { ros2: true }));
         this.hear.set(this.client.subscribe(channel.id), (data) => take(reader.readMessage<T>(data)));
+    }
+
+    /** Calls a service; the reply. */
+    async call<T>(name: string, request: object): Promise<T> {
+        const service = await until(`the service ${name}`, () => this.services.get(name));
+        const definitions = (schema?: string) => parse(schema ?? "", { ros2: true }),
+            writer = new MessageWriter(definitions(service.request?.schema)),
+            reader = new MessageReader(definitions(service.response?.schema));
+        const id = ++this.calls;
+        let reply: T | undefined;
+        this.client.on("serviceCallResponse", ({ callId, data }) => {
+            if (callId === id) reply = reader.readMessage<T>(data);
+        });
+        const data = new DataView(writer.writeMessage(request).slice().buffer);
+        this.client.sendServiceCallRequest({ serviceId: service.id, callId: id, encoding: "cdr", data });
+        return until(`the reply of ${name}`, () => reply);
     }
 
     close(): void {
@@ -167,6 +189,21 @@ test("a published Twist drives a robot", SKIP, async () => {
         return moved > 0.2 ? moved : undefined;
     });
     assert.ok(distance < 5);
+    viewer.close();
+});
+
+test("services pause the run, and let it go on", SKIP, async () => {
+    const PLAYING = 1,
+        PAUSED = 2,
+        viewer = new Viewer("foxglove.sdk.v1");
+    const set = (state: number) =>
+        viewer.call<{ result: { result: number } }>("/set_simulation_state", { state: { state } });
+    assert.equal((await set(PAUSED)).result.result, 1);
+    const shown = await viewer.call<{ state: { state: number } }>("/get_simulation_state", {});
+    assert.equal(shown.state.state, PAUSED);
+    const paused = viewer.time;
+    assert.equal((await set(PLAYING)).result.result, 1);
+    await until("it goes on", () => (viewer.time > paused ? viewer.time : undefined));
     viewer.close();
 });
 
