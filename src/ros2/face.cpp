@@ -75,7 +75,7 @@ Result<> Face::show(std::shared_ptr<const Model> model, const Address& self) {
     shown_ = -1, welcomes_ = 0, ready_ = false;
     subscribers_.clear(), broken_.clear();
     open_nodes();
-    services_.use(*client_, nodes_of_robots());
+    services_.use(*client_, robot_nodes_);
     services_.put("period", static_cast<double>(times.period) * model_->dt_s,
                   "simulated time between two looks at the world, s");
     open_topics();

@@ -55,18 +55,17 @@ class Face {
 
   private:
     struct Endpoint {
-        EntityId id = 0;
+        EntityId id = 0, node = 0;
         std::string type;
     };
     using Endpoints = std::map<std::string, Endpoint>;  // by topic
 
     void open_nodes();
-    std::vector<EntityId> nodes_of_robots() const;
     void open_topics();
     void open_commands();
-    EntityId node_of(const std::string& topic) const;
-    Result<> open(Endpoints& before, Endpoints& now, const std::string& topic, const MessageType& type,
-                  const std::function<Result<EntityId>(EntityId node)>& add);
+    EntityId node_of(RobotId robot) const;
+    static bool take_over(Endpoints& before, Endpoints& now, const std::string& topic,
+                          const std::string& type, EntityId node);
     void close(const Endpoints& endpoints);
 
     void take_messages(Bus& bus);
@@ -94,6 +93,7 @@ class Face {
     EntityId world_node_;
     FaceServices services_;
     std::map<std::string, EntityId> nodes_;  // of robots, by namespace without "/"
+    std::vector<EntityId> robot_nodes_;      // the same by RobotId
     Endpoints publishers_, subscriptions_;
     std::vector<EntityId> publisher_of_;                    // of topics_->topics(); 0: it could not be made
     std::map<EntityId, std::size_t> command_of_;            // in commands_->topics()

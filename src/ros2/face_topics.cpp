@@ -9,47 +9,33 @@ namespace roboss::ros2 {
 
 void Face::open_nodes() {
     std::map<std::string, EntityId> now;
+    robot_nodes_.clear();
     for (const std::string& name : robot_names(*model_)) {
         const auto before = nodes_.extract(name);
-        now[name] = before.empty() ? transport_.add_node("/" + name, "robot") : before.mapped();
+        robot_nodes_.push_back(before.empty() ? transport_.add_node("/" + name, "robot") : before.mapped());
+        now[name] = robot_nodes_.back();
     }
-    for (const auto& [name, node] : std::exchange(nodes_, std::move(now))) transport_.remove(node);
-    // The entities of removed nodes are gone with them.
+    std::set<EntityId> gone;
+    for (const auto& [name, node] : std::exchange(nodes_, std::move(now))) {
+        transport_.remove(node);
+        gone.insert(node);
+    }
+    // Their entities are gone with them.
     for (Endpoints* endpoints : {&publishers_, &subscriptions_})
-        std::erase_if(*endpoints, [&](const auto& entry) { return node_of(entry.first) == 0; });
+        std::erase_if(*endpoints, [&](const auto& entry) { return gone.contains(entry.second.node); });
 }
 
-std::vector<EntityId> Face::nodes_of_robots() const {
-    std::vector<EntityId> nodes;
-    for (const std::string& name : robot_names(*model_)) nodes.push_back(nodes_.at(name));
-    return nodes;
+EntityId Face::node_of(RobotId robot) const {
+    return robot.valid() ? robot_nodes_[robot.index()] : world_node_;
 }
 
-/// The node of a topic's robot, or of the world; 0: the robot is none of this world.
-EntityId Face::node_of(const std::string& topic) const {
-    // Names of robots may have slashes: the longest that fits.
-    for (std::size_t end = topic.rfind('/'); end != std::string::npos && end > 0;
-         end = topic.rfind('/', end - 1))
-        if (const auto node = nodes_.find(topic.substr(1, end - 1)); node != nodes_.end())
-            return node->second;
-    return topic.find('/', 1) == std::string::npos ? world_node_ : 0;
-}
-
-/// Takes an endpoint over from the world before, or makes it.
-Result<> Face::open(Endpoints& before, Endpoints& now, const std::string& topic, const MessageType& type,
-                    const std::function<Result<EntityId>(EntityId node)>& add) {
-    if (const auto known = before.find(topic); known != before.end()) {
-        if (known->second.type == type.name) {
-            now.insert(before.extract(known));
-            return Ok{};
-        }
-        transport_.remove(known->second.id);
-        before.erase(known);
-    }
-    const Result<EntityId> made = add(node_of(topic));
-    if (!made) return made.error();
-    now[topic] = {made.value(), type.name};
-    return Ok{};
+/// Takes an endpoint over from the world before, if it had it at the same node with the same type.
+bool Face::take_over(Endpoints& before, Endpoints& now, const std::string& topic, const std::string& type,
+                     EntityId node) {
+    const auto known = before.find(topic);
+    if (known == before.end() || known->second.type != type || known->second.node != node) return false;
+    now.insert(before.extract(known));
+    return true;
 }
 
 void Face::close(const Endpoints& endpoints) {
@@ -58,32 +44,40 @@ void Face::close(const Endpoints& endpoints) {
 
 void Face::open_topics() {
     Endpoints now;
+    for (const Topic& topic : topics_->topics())
+        (void)take_over(publishers_, now, topic.name, topic.type->name, node_of(topic.robot));
+    close(std::exchange(publishers_, std::move(now)));  // first, for a topic may have another type now
     publisher_of_.clear();
     for (const Topic& topic : topics_->topics()) {
-        const Qos qos{true, topic.is_latched, topic.is_latched || topic.name == "/clock" ? 1u : 10u};
-        const Result<> opened = open(publishers_, now, topic.name, *topic.type, [&](EntityId node) {
-            return transport_.add_publisher(node, topic.name, *topic.type, qos);
-        });
-        if (!opened) notice(opened.error().text());
-        publisher_of_.push_back(opened ? now[topic.name].id : 0);
+        Endpoint& endpoint = publishers_[topic.name];
+        if (endpoint.id == 0) {
+            const Qos qos{true, topic.is_latched, topic.is_latched || topic.name == "/clock" ? 1u : 10u};
+            const EntityId node = node_of(topic.robot);
+            const Result<EntityId> made = transport_.add_publisher(node, topic.name, *topic.type, qos);
+            if (!made) notice(made.error().text());
+            endpoint = {made ? made.value() : 0, node, topic.type->name};
+        }
+        publisher_of_.push_back(endpoint.id);
     }
-    close(std::exchange(publishers_, std::move(now)));
 }
 
 void Face::open_commands() {
     Endpoints now;
+    for (const CommandTopic& topic : commands_->topics())
+        (void)take_over(subscriptions_, now, topic.name, topic.type->name, node_of(topic.robot));
+    close(std::exchange(subscriptions_, std::move(now)));
     command_of_.clear();
     for (std::size_t c = 0; c < commands_->topics().size(); ++c) {
         const CommandTopic& topic = commands_->topics()[c];
-        const Result<> opened = open(subscriptions_, now, topic.name, *topic.type, [&](EntityId node) {
-            return transport_.add_subscription(node, topic.name, *topic.type, Qos{});
-        });
-        if (!opened)
-            notice(opened.error().text());
-        else
-            command_of_[now[topic.name].id] = c;
+        Endpoint& endpoint = subscriptions_[topic.name];
+        if (endpoint.id == 0) {
+            const EntityId node = node_of(topic.robot);
+            const Result<EntityId> made = transport_.add_subscription(node, topic.name, *topic.type, Qos{});
+            if (!made) notice(made.error().text());
+            endpoint = {made ? made.value() : 0, node, topic.type->name};
+        }
+        if (endpoint.id != 0) command_of_[endpoint.id] = c;
     }
-    close(std::exchange(subscriptions_, std::move(now)));
 }
 
 }  // namespace roboss::ros2

@@ -116,6 +116,17 @@ Result<std::vector<double>> read(std::string_view cdr, Convert convert) {
     return convert(message.value());
 }
 
+/// The topic of a command in the namespace of its robot, `space`: "/scout_1/cmd_vel", also where the file
+/// says so itself. A namespace that the file gives to a plugin of gazebo_ros_pkgs takes its place.
+std::string command_topic(const Channel& channel, const std::string& space, std::set<std::string>& taken) {
+    const bool has_own_space = !channel.topic.starts_with("/model/") && channel.topic != "/" + channel.name &&
+                               !channel.topic.empty();
+    const std::string given = "/" + ros_path(channel.topic);
+    if (has_own_space && taken.insert(given).second) return given;
+    const std::string path = "/" + ros_path(channel.name);
+    return unique_name(path.starts_with(space) ? path : space + path.substr(1), taken);
+}
+
 }  // namespace
 
 std::vector<JointId> driven_joints(const RobotType& type) {
@@ -133,21 +144,19 @@ std::vector<JointId> driven_joints(const RobotType& type) {
 
 RobotCommands::RobotCommands(std::shared_ptr<const Model> model, bool stamped) : model_(std::move(model)) {
     const std::vector<std::string> names = robot_names(*model_);
-    for (std::size_t r = 0; r < names.size(); ++r) add_robot(RobotId(r), "/" + names[r] + "/", stamped);
+    std::set<std::string> taken;
+    for (std::size_t r = 0; r < names.size(); ++r)
+        add_robot(RobotId(r), "/" + names[r] + "/", stamped, taken);
 }
 
-void RobotCommands::add_robot(RobotId robot, const std::string& space, bool stamped) {
+void RobotCommands::add_robot(RobotId robot, const std::string& space, bool stamped,
+                              std::set<std::string>& taken) {
     const RobotType& type = model_->type_of(robot);
-    std::set<std::string> taken;
     for (std::size_t c = 0; c < type.channels.size(); ++c) {
         const Channel& channel = type.channels[c].channel;
         const auto [kind, message] = message_of(channel, stamped);
-        topics_.push_back({unique_name(space + ros_name(channel.name), taken),
-                           message,
-                           kind,
-                           robot,
-                           static_cast<std::uint32_t>(c),
-                           {}});
+        topics_.push_back(
+            {command_topic(channel, space, taken), message, kind, robot, static_cast<std::uint32_t>(c), {}});
     }
     if (!type.channels.empty() || driven_joints(type).empty()) return;
     static constexpr std::array<std::pair<const char*, MotorMode>, 3> kControllers{

@@ -9,7 +9,7 @@
 
 #include <cstdint>
 #include <memory>
-#include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -56,7 +56,7 @@ class RobotCommands {
     Result<std::vector<Action>> actions(std::size_t topic, std::string_view cdr) const;
 
   private:
-    void add_robot(RobotId robot, const std::string& space, bool stamped);
+    void add_robot(RobotId robot, const std::string& space, bool stamped, std::set<std::string>& taken);
     Result<std::vector<double>> values(const CommandTopic& topic, std::string_view cdr) const;
     Result<std::vector<Action>> setpoints(const CommandTopic& topic, std::string_view cdr) const;
 

@@ -56,6 +56,22 @@ TEST_F(Commands, ADriveTakesVelocitiesAndASwitch) {
     EXPECT_EQ(values("/robot/enable", Bool{true}), std::vector{1.0});
 }
 
+TEST_F(Commands, AreInTheNamespaceOfTheirRobotWhateverTheFileSays) {
+    for (const auto& [written, name] :
+         {std::pair{"/robot/go", "/robot/go"}, {"go", "/robot/go"}, {"/a/b", "/robot/a/b"}}) {
+        DiffDriveSpec drive = test::diff_drive();
+        drive.topic = written;
+        show(test::with_onboard(test::two_wheeler(), drive));
+        EXPECT_EQ(type_of_topic(name), "geometry_msgs/msg/Twist") << written;
+    }
+    RosDiffDriveSpec classic;
+    classic.left = {"left_joint"}, classic.right = {"right_joint"};
+    classic.separations = {0.5}, classic.diameters = {0.2};
+    classic.ros.ros_namespace = "demo";
+    show(test::with_onboard(test::two_wheeler(), classic));
+    EXPECT_EQ(type_of_topic("/demo/cmd_vel"), "geometry_msgs/msg/Twist") << "a namespace of the file";
+}
+
 TEST_F(Commands, VelocitiesAreStampedWhereThatIsAsked) {
     show(test::with_onboard(test::two_wheeler(), test::diff_drive()), true);
     EXPECT_EQ(type_of_topic("/robot/cmd_vel"), "geometry_msgs/msg/TwistStamped");

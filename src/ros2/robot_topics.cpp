@@ -106,9 +106,9 @@ RobotTopics::RobotTopics(RobotTopics&&) noexcept = default;
 RobotTopics& RobotTopics::operator=(RobotTopics&&) noexcept = default;
 
 RobotTopics::RobotTopics(std::shared_ptr<const Model> model) : model_(std::move(model)) {
-    topics_ = {{"/clock", &type_of<Clock>(), false},
-               {"/tf", &type_of<TFMessage>(), false},
-               {"/tf_static", &type_of<TFMessage>(), true}};
+    topics_ = {{"/clock", &type_of<Clock>(), false, {}},
+               {"/tf", &type_of<TFMessage>(), false, {}},
+               {"/tf_static", &type_of<TFMessage>(), true, {}}};
     Taken taken;
     const std::vector<std::string> names = robot_names(*model_);
     for (std::size_t r = 0; r < names.size(); ++r) add_robot(RobotId(r), names[r], taken);
@@ -124,12 +124,12 @@ void RobotTopics::add_robot(RobotId robot, const std::string& name, Taken& taken
         if (type.joints[j].nv == 1) part.joints.push_back(JointId(j));
     if (!part.joints.empty()) {
         part.joint_states = topics_.size();
-        topics_.push_back(
-            {unique_name("/" + name + "/joint_states", taken.topics), &type_of<JointStateMessage>(), false});
+        topics_.push_back({unique_name("/" + name + "/joint_states", taken.topics),
+                           &type_of<JointStateMessage>(), false, robot});
     }
     part.name = name, part.description = topics_.size();
     topics_.push_back(
-        {unique_name("/" + name + "/robot_description", taken.topics), &type_of<String>(), true});
+        {unique_name("/" + name + "/robot_description", taken.topics), &type_of<String>(), true, robot});
     robots_.push_back(std::move(part));
 
     add_sensors(robot, name, taken);
@@ -152,7 +152,7 @@ void RobotTopics::add_sensors(RobotId robot, const std::string& name, Taken& tak
                     const bool is_named = is_camera || uses[suffix] > 1;
                     const std::string usual = (is_named ? sensor_name + "/" : "") + suffix;
                     const std::string topic = topic_name(name, info.spec, suffix, usual);
-                    topics_.push_back({taken.topic(topic, name), &type_of<M>(), false});
+                    topics_.push_back({taken.topic(topic, name), &type_of<M>(), false, robot});
                 });
         source.count = topics_.size() - source.first;
         if (source.count == 0) {

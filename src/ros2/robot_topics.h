@@ -26,6 +26,7 @@ struct Topic {
     std::string name;           ///< "/car_3/scan"
     const MessageType* type{};  ///< of its messages
     bool is_latched = false;    ///< who comes later gets the last message, too
+    RobotId robot{};            ///< that has it; not valid: the world
 };
 
 /// See the top of the file.
