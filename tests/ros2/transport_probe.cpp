@@ -21,6 +21,7 @@
 #include "ros2_types/cdr.h"
 #include "ros2_types/messages/sensor_messages.h"
 #include "ros2_types/messages/standard_messages.h"
+#include "ros2_types/messages/standard_services.h"
 #include "ros2_types/open_transport.h"
 #include "ros2_types/type_description.h"
 
@@ -30,27 +31,7 @@ using Steady = std::chrono::steady_clock;
 
 namespace {
 
-struct TriggerReply {
-    static constexpr const char* kName = "std_srvs/srv/Trigger_Response";
-    bool success = true;
-    std::string message;
-
-    template <class Visitor, class Self>
-    static void fields(Visitor&& visit, Self& m) {
-        visit("success", m.success);
-        visit("message", m.message);
-    }
-};
-
-const ServiceType kTrigger{"std_srvs/srv/Trigger",
-                           "RIHS01_d010825374ce8918e72bfd826c82603e60f45419e932ea976f807b74a863a199",
-                           "RIHS01_2d946c21e2fc3f1e9ca6986a8191d85fcc70097a8bb7771a053564bc47009cdf"};
-
-template <class Message>
-MessageType type_of() {
-    const TypeDescription type = describe<Message>();
-    return {type.name, type_hash(type), definition_text(type)};
-}
+const ServiceType& kTrigger = type_of_service<std_srvs::Trigger>();
 
 double ms_since(Steady::time_point start) {
     return std::chrono::duration<double, std::milli>(Steady::now() - start).count();
@@ -150,8 +131,9 @@ class Probe {
             ++calls_;
             std::cout << "call " << message.peer_type << " dialect " << int(message.call.dialect) << " bytes "
                       << message.bytes.size() << std::endl;
-            transport_.reply(service_, message.call,
-                             to_cdr(TriggerReply{true, "call " + std::to_string(message.call.number)}));
+            transport_.reply(
+                service_, message.call,
+                to_cdr(std_srvs::Trigger::Response{true, "call " + std::to_string(message.call.number)}));
         }
     }
 
