@@ -232,7 +232,7 @@ class Viewer(unittest.TestCase):
             for address in ("nonsense", "1.2.3.4:8090"):
                 run = cluster.start_plain("run", *CITY, "--until", 0.1, "--view", address)
                 self.assertEqual(run.end(), 1, run.said())
-                self.assertIn("view", run.said())
+                self.assertIn("address", run.said())
 
     def test_another_host_is_refused_with_a_line(self):
         with Cluster() as cluster:
