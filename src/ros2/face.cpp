@@ -51,7 +51,11 @@ Face::Face(Transport& transport, FaceOptions options)
       world_node_(transport_.add_node("/", "roboss")),
       services_(transport_, world_node_, options_.services) {}
 
-Face::~Face() = default;
+Face::~Face() {
+    for (const auto& [name, node] : nodes_) transport_.remove(node);
+    transport_.remove(world_node_);
+    transport_.announce();
+}
 
 Result<> Face::show(std::shared_ptr<const Model> model, const Address& self) {
     model_ = std::move(model);

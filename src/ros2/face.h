@@ -38,7 +38,10 @@ class Face {
   public:
     /// `transport` outlives it.
     Face(Transport& transport, FaceOptions options);
+    /// Its nodes go, with all that they have.
     ~Face();
+    Face(const Face&) = delete;
+    Face& operator=(const Face&) = delete;
 
     /// Shows this world from now on; topics that the world before had, too, stay as they are. `self`: a new
     /// address. An Error: a lockstep topic is none of this world.

@@ -38,12 +38,14 @@ class RunWithNodes : public testing::Test {
     }
     /// Runs to this tick; `nodes` is called in each turn.
     void run(Tick until, const std::function<void()>& nodes = {}) {
+        const std::int64_t end_ms = monotonic_ms() + 60'000;  // a test that waits for ever fails
         const Result<> ran = simulation->run_until(until, [&] {
             face->advance(*bus_);
             if (nodes) nodes();
-            return true;
+            return monotonic_ms() < end_ms;
         });
         ASSERT_TRUE(ran.ok()) << ran.error().text();
+        ASSERT_GE(simulation->tick(), until) << "it waits for ever";
         for (int turn = 0; turn < 3; ++turn) {
             face->advance(*bus_);
             simulation->serve();
@@ -134,6 +136,12 @@ TEST_F(RunWithNodes, SeeThePausedWorldAtAnyTick) {
     EXPECT_EQ(face->client().tick(), 33) << "its period is 10 ticks";
     run(47);
     EXPECT_GE(face->client().tick(), 40);
+}
+
+TEST_F(RunWithNodes, SeeTheNodesGoWithTheFace) {
+    start({});
+    face.reset();
+    EXPECT_TRUE(transport.names.empty()) << transport.names.begin()->second;
 }
 
 TEST_F(RunWithNodes, AnotherWorldKeepsWhatItStillHas) {
