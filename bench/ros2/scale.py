@@ -18,7 +18,7 @@ TICKS = os.sysconf("SC_CLK_TCK")
 
 
 def world_of(robots, folder):
-    """A world with so many robots of worlds/fleet.sdf, two metres apart."""
+    """A world with this number of robots of worlds/fleet.sdf, 2 m apart."""
     side = int(robots ** 0.5) + 1
     ground = ROOT.joinpath("worlds/fleet.sdf").read_text().split("<model name=\"yard\">")[0]
     fleet = "".join(f"<include><uri>model://turtle</uri><name>turtle_{n}</name><pose>{2 * (n % side)} {2 * (n // side)} 0 0 0 0"

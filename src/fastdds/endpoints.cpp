@@ -48,7 +48,7 @@ Result<std::unique_ptr<Writer>> Writer::open(Participant& participant, const Dds
     dds::DataWriterQos wanted = dds::DATAWRITER_QOS_DEFAULT;
     set_qos(wanted, qos, hash);
     set_heartbeat(wanted, kHeartbeat);
-    // A thread of Fast DDS sends, so that a large message keeps nobody waiting.
+    // A thread of Fast DDS sends, so that a large message does not block the caller.
     wanted.publish_mode().kind = dds::ASYNCHRONOUS_PUBLISH_MODE;
     made->writer_ = participant.publisher().create_datawriter(used.value(), wanted, made.get(),
                                                               dds::StatusMask::publication_matched());

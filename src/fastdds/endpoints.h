@@ -34,7 +34,7 @@ class Writer : dds::DataWriterListener {
     Writer& operator=(const Writer&) = delete;
 
     Guid guid() const { return to_guid(writer_->guid()); }
-    /// Sends a message; waits for nobody. False: there is no memory for it.
+    /// Sends a message without blocking. False: there is no memory for it.
     bool send(std::string_view cdr, rtps::WriteParams parameters = {});
     /// Waits until all reliable readers have confirmed all messages.
     bool await_confirmed(std::int64_t ms_max);

@@ -1,5 +1,5 @@
 // Notices: warnings about others, for the user, each of one line. Others can cause any number of them, so few
-// wait at a time and each is told once.
+// wait at a time and each is reported once.
 #pragma once
 
 #include <cstdint>
@@ -13,7 +13,7 @@ namespace roboss::fastdds {
 /// Safe to use from many threads.
 class Notices {
   public:
-    /// Keeps a line for take(), unless one with this key was told before.
+    /// Keeps a line for take(), unless one with this key was reported before.
     void tell_once(const std::string& key, const std::string& line);
     /// Counts a message that is lost since nobody took it; `topic`: its own.
     void count_dropped(const std::string& topic);

@@ -99,7 +99,7 @@ std::string unadvertise_services(const std::vector<std::uint32_t>& services);
 /// Why a call has no reply.
 std::string call_failure(std::uint32_t service, std::uint32_t call, const std::string& message);
 
-/// Who publishes, subscribes and serves: name of the topic or service, names of nodes.
+/// The publishers, subscribers and servers: name of the topic or service, names of nodes.
 struct Graph {
     using Edges = std::vector<std::pair<std::string, std::vector<std::string>>>;
     Edges publishers, subscribers, providers;

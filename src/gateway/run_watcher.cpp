@@ -8,6 +8,7 @@
 
 #include "gateway/page_order.h"
 #include "gateway/run_json.h"
+#include "wire/orders_only.h"
 #include "wire/viewer_protocol.h"
 
 namespace roboss {
@@ -23,8 +24,7 @@ constexpr std::int64_t kStatusEvery_ms = 500, kGroupsEvery_ms = 500, kBoundsEver
                        kProfileEvery_ms = 500;
 constexpr std::uint32_t kExactEvery_ms = 100;
 constexpr std::size_t kQuestionsMax = 200;
-constexpr std::size_t kPreviewsMax = 32;   // pages whose requests are remembered
-constexpr Tick kNoPeriod = Tick{1} << 49;  // the orders' Client observes nothing, and so holds up no window
+constexpr std::size_t kPreviewsMax = 32;  // pages whose requests are remembered
 
 /// Contacts and radio links need everybody's state too.
 ViewRequest request_of(const WatchRequest& wanted, const Model& model) {
@@ -364,7 +364,7 @@ void RunWatcher::order(Bus& bus, const PageCall& call, const PageOrder& wanted) 
     if (!client_) {
         BusClientOptions options;
         options.name = "viewer";
-        options.period = options.latency = kNoPeriod;
+        options.period = options.latency = kOrdersOnly;
         options.synchronous = false;
         options.observer = true;
         client_ = std::make_unique<BusClient>(scene_->model, new_address_(), options);

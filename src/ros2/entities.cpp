@@ -7,6 +7,8 @@
 #include "geometry/shape.h"
 #include "model/topics.h"
 #include "ros2/name_filter.h"
+#include "ros2/sensor_messages.h"
+#include "ros2/stamps.h"
 
 namespace roboss::ros2 {
 
@@ -20,10 +22,6 @@ constexpr double kUnitWithin = 1e-2;      // a quaternion that is less near to a
 /// Velocity of a point that is fixed to the frame whose velocity it is, `arm` from its origin.
 Twist moved(const Twist& twist, const Vec3& arm) {
     return {twist.angular, twist.linear + cross(twist.angular, arm)};
-}
-
-Vector3 vector_of(const Vec3& v) {
-    return {v.x, v.y, v.z};
 }
 
 bool has_category(const si::EntityInfo& info, const std::vector<si::EntityCategory>& wanted) {
@@ -127,10 +125,11 @@ Twist Entities::twist(RobotId robot) const {
 
 si::EntityState Entities::state(RobotId robot) const {
     const Twist velocity = twist(robot);
+    const Pose X_WM = pose(robot);
     si::EntityState state;
     state.header = {stamp_of(run_.model(), run_.tick()), "world"};
-    state.pose = message_of(pose(robot));
-    state.twist = {vector_of(velocity.linear), vector_of(velocity.angular)};
+    state.pose = sensor_messages::pose(X_WM.p, X_WM.q);
+    state.twist = {sensor_messages::vector(velocity.linear), sensor_messages::vector(velocity.angular)};
     return state;
 }
 
@@ -160,7 +159,7 @@ si::Bounds Entities::bounds(RobotId robot) const {
     const Aabb box = this->box(robot, inverse(X_WL));
     if (box.empty()) return bounds;
     bounds.type = si::Bounds::kBox;
-    bounds.points = {vector_of(box.max), vector_of(box.min)};
+    bounds.points = {sensor_messages::vector(box.max), sensor_messages::vector(box.min)};
     return bounds;
 }
 
@@ -213,15 +212,6 @@ bool fits(const std::vector<std::string>& tags, const si::TagsFilter& filter) {
     if (filter.tags.empty()) return true;
     return filter.filter_mode == si::TagsFilter::kAll ? std::ranges::all_of(filter.tags, has)
                                                       : std::ranges::any_of(filter.tags, has);
-}
-
-PoseMessage message_of(const Pose& pose) {
-    return {{pose.p.x, pose.p.y, pose.p.z}, {pose.q.x, pose.q.y, pose.q.z, pose.q.w}};
-}
-
-Time stamp_of(const Model& model, Tick tick) {
-    const auto ns = static_cast<std::int64_t>(std::llround(static_cast<double>(tick) * model.dt_s * 1e9));
-    return {static_cast<std::int32_t>(ns / 1'000'000'000), static_cast<std::uint32_t>(ns % 1'000'000'000)};
 }
 
 }  // namespace roboss::ros2

@@ -67,9 +67,5 @@ class Entities {
 
 /// True if tags fit a filter.
 bool fits(const std::vector<std::string>& tags, const simulation_interfaces::TagsFilter& filter);
-/// The pose as a message.
-PoseMessage message_of(const Pose& pose);
-/// Simulated time of a tick.
-Time stamp_of(const Model& model, Tick tick);
 
 }  // namespace roboss::ros2

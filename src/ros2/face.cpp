@@ -6,6 +6,7 @@
 #include <exception>
 #include <utility>
 
+#include "ros2/stamps.h"
 #include "ros2_types/cdr.h"
 #include "ros2_types/messages/command_messages.h"
 
@@ -24,8 +25,7 @@ std::optional<std::int64_t> stamp_ns(CommandTopic::Kind kind, std::string_view c
     if (kind != CommandTopic::Kind::kTwistStamped) return {};
     const Result<TwistStamped> message = from_cdr<TwistStamped>(cdr);
     if (!message) return {};
-    const Time& stamp = message.value().header.stamp;
-    const std::int64_t ns = std::int64_t{stamp.sec} * 1'000'000'000 + stamp.nanosec;
+    const std::int64_t ns = nanoseconds(message.value().header.stamp);
     return ns == 0 ? std::nullopt : std::optional(ns);
 }
 
@@ -135,7 +135,7 @@ void Face::observe(Bus& bus) {
             publish_latched();
         }
         shown_ = client_->tick(), welcomes_ = client_->welcomes();
-        if (lockstep_) lockstep_->begin(topics_->stamp_ns(shown_));
+        if (lockstep_) lockstep_->begin(nanoseconds(stamp_of(*model_, shown_)));
         waiting_since_ms_ = now, waiting_told_ = false;
     }
     if (!lockstep_) {
@@ -171,8 +171,9 @@ bool Face::is_ready(std::int64_t now_ms) {
     return ready_;
 }
 
-/// Who subscribes while the world waits, as a node that was started again, gets what it missed. Others who
-/// have the topic get it twice; so at first only topics that nobody had.
+/// Subscriptions that come while the world waits, as those of a node that was started again, get the messages
+/// that they missed. Other subscriptions to such a topic get them twice; so at first only topics that nobody
+/// had.
 void Face::publish_to_late(std::int64_t now_ms) {
     const std::vector<std::size_t> count = count_subscribers();
     std::vector<bool> late(count.size());
@@ -235,10 +236,11 @@ void Face::publish_observed(const std::vector<bool>& wanted) {
 void Face::confirm(const std::vector<EntityId>& sent) {
     for (const EntityId publisher : sent)
         if (!transport_.await_confirmed(publisher, kConfirm_ms))
-            return notice("a subscriber does not confirm messages; the clock goes on without it [lockstep]");
+            return notice(
+                "a subscriber does not confirm messages; /clock is published nevertheless [lockstep]");
 }
 
-/// Nothing where the sensor cannot measure; that is told once.
+/// Nothing where the sensor cannot measure, which is reported once.
 Result<std::optional<Sample>> Face::measure(RobotId robot, std::size_t sensor) {
     const std::pair key{robot.index(), sensor};
     if (broken_.contains(key)) return std::optional<Sample>{};

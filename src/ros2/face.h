@@ -29,7 +29,7 @@ struct FaceOptions {
     double period_s = 0;          ///< between two looks at the world; 0: that of the fastest sensor
     bool stamped = false;         ///< velocities are TwistStamped
     FaceServiceOptions services;  ///< of the world's node
-    /// The world waits for a message of each of these topics in each period; empty: it waits for nobody.
+    /// The world waits for a message of each of these topics in each period; empty: it does not wait.
     std::vector<std::string> lockstep;
 };
 

@@ -39,7 +39,7 @@ FaceServices::FaceServices(Transport& transport, EntityId world_node, FaceServic
 void FaceServices::use(BusClient& client, const std::vector<EntityId>& nodes) {
     actions_.clear();
     run_.use(client);
-    nodes_ = nodes, next_ = 0;
+    names_ = robot_names(client.model()), nodes_ = nodes, next_ = 0;
     if (gazebo_ && world_ == client.model().name) return;
     world_ = client.model().name;
     gazebo_.reset();
@@ -55,8 +55,7 @@ void FaceServices::add_actions() {
     for (std::size_t made = 0; next_ < nodes_.size() && made < kActionsInATurn; ++next_) {
         const RobotId robot(next_);
         if (!follows_trajectories(run_.model().type_of(robot))) continue;
-        const std::string name =
-            "/" + robot_names(run_.model())[next_] + "/joint_trajectory_controller/follow_joint_trajectory";
+        const std::string name = "/" + names_[next_] + "/joint_trajectory_controller/follow_joint_trajectory";
         actions_.push_back(std::make_unique<TrajectoryAction>(transport_, nodes_[next_], name, run_, robot,
                                                               options_.older_feedback));
         if (++made == kActionsInATurn || next_ + 1 == nodes_.size()) transport_.announce();

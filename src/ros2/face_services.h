@@ -50,6 +50,7 @@ class FaceServices {
     std::optional<GazeboServices> gazebo_;
     NodeParameters parameters_;
     std::string world_;
+    std::vector<std::string> names_;  // of robots
     std::vector<EntityId> nodes_;
     std::size_t next_ = 0;  // robot whose action is added next
     std::vector<std::unique_ptr<TrajectoryAction>> actions_;

@@ -143,6 +143,7 @@ std::vector<JointId> driven_joints(const RobotType& type) {
 }
 
 RobotCommands::RobotCommands(std::shared_ptr<const Model> model, bool stamped) : model_(std::move(model)) {
+    for (const RobotType& type : model_->types) driven_.push_back(driven_joints(type));
     const std::vector<std::string> names = robot_names(*model_);
     std::set<std::string> taken;
     for (std::size_t r = 0; r < names.size(); ++r)
@@ -158,7 +159,7 @@ void RobotCommands::add_robot(RobotId robot, const std::string& space, bool stam
         topics_.push_back(
             {command_topic(channel, space, taken), message, kind, robot, static_cast<std::uint32_t>(c), {}});
     }
-    if (!type.channels.empty() || driven_joints(type).empty()) return;
+    if (!type.channels.empty() || driven_[model_->robots[robot.index()].type.index()].empty()) return;
     static constexpr std::array<std::pair<const char*, MotorMode>, 3> kControllers{
         {{"position_controller/commands", MotorMode::kPosition},
          {"velocity_controller/commands", MotorMode::kVelocity},
@@ -214,7 +215,7 @@ Result<std::vector<double>> RobotCommands::values(const CommandTopic& topic, std
 Result<std::vector<Action>> RobotCommands::setpoints(const CommandTopic& topic, std::string_view cdr) const {
     const Result<Float64MultiArray> message = from_cdr<Float64MultiArray>(cdr);
     if (!message) return message.error();
-    const std::vector<JointId> joints = driven_joints(model_->type_of(topic.robot));
+    const std::vector<JointId>& joints = driven_[model_->robots[topic.robot.index()].type.index()];
     if (message.value().data.size() != joints.size()) {
         std::string names;
         for (const JointId joint : joints)

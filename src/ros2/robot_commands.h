@@ -62,6 +62,7 @@ class RobotCommands {
 
     std::shared_ptr<const Model> model_;
     std::vector<CommandTopic> topics_;
+    std::vector<std::vector<JointId>> driven_;  // driven_joints() by TypeId
 };
 
 /// Joints of one axis that motors move, in the order of their setpoints.

@@ -12,20 +12,13 @@
 #include "ros2/robot_description.h"
 #include "ros2/robot_names.h"
 #include "ros2/sensor_messages.h"
+#include "ros2/stamps.h"
 #include "ros2_types/cdr.h"
 #include "ros2_types/type_description.h"
 
 namespace roboss::ros2 {
 
 namespace {
-
-Time time_of(const Model& model, Tick tick) {
-    const double seconds = static_cast<double>(tick) * model.dt_s;
-    auto sec = static_cast<std::int32_t>(std::floor(seconds));
-    auto nanosec = static_cast<std::int64_t>(std::llround((seconds - sec) * 1e9));
-    if (nanosec >= 1'000'000'000) ++sec, nanosec -= 1'000'000'000;
-    return {sec, static_cast<std::uint32_t>(nanosec)};
-}
 
 TransformStamped transform(const Time& stamp, std::string parent, std::string child, const Transform& X) {
     const Pose pose = to_pose(X);
@@ -186,7 +179,7 @@ std::vector<RobotTopics::Message> RobotTopics::latched(Tick tick) const {
 }
 
 std::string RobotTopics::fixed_frames(Tick tick) const {
-    const Time stamp = time_of(*model_, tick);
+    const Time stamp = stamp_of(*model_, tick);
     TFMessage frames;
     for (std::size_t r = 0; r < robots_.size(); ++r) {
         const RobotType& type = model_->type_of(RobotId(r));
@@ -216,7 +209,7 @@ std::string RobotTopics::fixed_frames(Tick tick) const {
 }
 
 std::string RobotTopics::moving_frames(Tick tick, std::span<const RobotState> states) const {
-    const Time stamp = time_of(*model_, tick);
+    const Time stamp = stamp_of(*model_, tick);
     TFMessage frames;
     std::vector<Transform> bodies;
     for (std::size_t r = 0; r < robots_.size(); ++r) {
@@ -247,7 +240,7 @@ std::string RobotTopics::moving_frames(Tick tick, std::span<const RobotState> st
 std::string RobotTopics::joint_states(Tick tick, RobotId robot, const RobotState& state) const {
     const RobotType& type = model_->type_of(robot);
     JointStateMessage joints;
-    joints.header.stamp = time_of(*model_, tick);
+    joints.header.stamp = stamp_of(*model_, tick);
     for (const JointId joint : robots_[robot.index()].joints) {
         const JointState at = joint_state(type, state, joint);
         joints.name.push_back(type.joints[joint.index()].name);
@@ -275,7 +268,7 @@ void RobotTopics::add_readings(const Source& source, Tick tick, const Sample& sa
                             source.optical_frame,
                             robots_[source.robot.index()].frames.front(),
                             source.odometry_frame,
-                            time_of(*model_, tick)};
+                            stamp_of(*model_, tick)};
     std::size_t topic = source.first;
     publish(place, &sample, [&](const char*, const auto& message) {
         if (wanted_[topic]) out.push_back({topic, to_cdr(message)});
@@ -286,7 +279,7 @@ void RobotTopics::add_readings(const Source& source, Tick tick, const Sample& sa
 Result<std::vector<RobotTopics::Message>> RobotTopics::messages(Tick tick, std::span<const RobotState> states,
                                                                 const Measure& measure) {
     std::vector<Message> out;
-    if (wanted_[kClock]) out.push_back({kClock, to_cdr(Clock{time_of(*model_, tick)})});
+    if (wanted_[kClock]) out.push_back({kClock, to_cdr(Clock{stamp_of(*model_, tick)})});
     if (wanted_[kTf]) out.push_back({kTf, moving_frames(tick, states)});
     for (std::size_t r = 0; r < robots_.size(); ++r)
         if (const std::size_t topic = robots_[r].joint_states; topic != 0 && wanted_[topic])
@@ -299,11 +292,6 @@ Result<std::vector<RobotTopics::Message>> RobotTopics::messages(Tick tick, std::
     }
     before_ = std::exchange(last_, tick);
     return out;
-}
-
-std::int64_t RobotTopics::stamp_ns(Tick tick) const {
-    const Time stamp = time_of(*model_, tick);
-    return std::int64_t{stamp.sec} * 1'000'000'000 + stamp.nanosec;
 }
 
 }  // namespace roboss::ros2

@@ -66,8 +66,6 @@ class RobotTopics {
     void forget() { last_ = before_ = -1; }
     /// The next call of messages() is for the tick of the last one once more.
     void repeat() { last_ = before_; }
-    /// The stamp of messages at a tick, ns.
-    std::int64_t stamp_ns(Tick tick) const;
 
   private:
     struct Source;

@@ -7,6 +7,7 @@
 #include "ros2/action_server.h"
 #include "ros2/entity_services.h"
 #include "ros2/run_services.h"
+#include "ros2/stamps.h"
 
 namespace roboss::ros2 {
 

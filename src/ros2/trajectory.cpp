@@ -77,7 +77,7 @@ Result<Trajectory> Trajectory::of(const JointTrajectory& message, const std::vec
                                     point.order >= 2 ? from.accelerations[j] : 0});
         trajectory.points_.push_back(std::move(point));
     }
-    // Who ends with a motion would go on with it.
+    // A trajectory that ends with a velocity would move on.
     if (std::ranges::any_of(trajectory.points_.back().joints,
                             [](const JointPoint& j) { return j.velocity != 0; }))
         return wrong("the velocities of the last point are not zero");

@@ -7,6 +7,7 @@
 
 #include "ros2/action_server.h"
 #include "ros2/entities.h"
+#include "ros2/stamps.h"
 #include "ros2/trajectory_goal.h"
 
 namespace roboss::ros2 {

@@ -7,8 +7,8 @@
 #include <optional>
 
 #include "app/commands/exit_codes.h"
+#include "app/processes/client_loop.h"
 #include "app/processes/crash_report.h"
-#include "app/processes/interrupt.h"
 #include "app/processes/member.h"
 #include "client/plugin.h"
 #include "client/program_host.h"
@@ -16,8 +16,6 @@
 
 namespace roboss {
 namespace {
-
-constexpr std::int64_t kGoodbye_ms = 5'000;
 
 const char* const kClientFooter =
     R"(PROGRAM is a shared library as for `roboss run --client`; the source is the same. It may attach to a run at any time.
@@ -68,28 +66,19 @@ class ClientProcess {
   private:
     /// The exit code; nullopt: the run has a new Model.
     std::optional<int> serve(ProgramHost& host) {
-        std::int64_t leaving_ms = 0;
-        while (host.client().over().empty()) {
-            const std::int64_t now = member_.bus().now_ms();
-            if (leaving_ms == 0 && (interrupted() || !host.failure().empty())) {
-                leaving_ms = now;
-                if (host.failure().empty() && host.client().joined()) host.client().leave(member_.bus());
-            }
-            if (leaving_ms != 0 && (host.client().heard() || now - leaving_ms > kGoodbye_ms)) break;
+        const ClientEnd end = serve_client(member_, host.client(), [&] {
             host.advance(member_.bus());
             for (const std::string& refusal : host.client().take_refusals()) member_.report(refusal);
-            if (host.client().outdated()) return std::nullopt;
-            if (!host.client().refusal().empty()) return report_refusal(host.client().refusal());
-            if (host.client().over().empty() && !member_.wait()) break;
-        }
-        member_.bus().flush(500);
+            return host.failure().empty();
+        });
+        if (end == ClientEnd::kNewModel) return std::nullopt;
+        if (end == ClientEnd::kRefused) return report_refusal(host.client().refusal());
         if (!host.failure().empty()) {
             member_.report_error(
                 error_of_text("", host.failure(), "fix the control program", "client-failed"));
             return kRunFailed;
         }
-        if (!host.client().over().empty()) return member_.end({host.client().over(), host.client().failed()});
-        return member_.exit_code();
+        return client_exit_code(member_, host.client());
     }
 
     int report_refusal(const std::string& why) {

@@ -71,15 +71,13 @@ LocalProcess::LocalProcess(LocalProcess&& other) noexcept
     : id_(std::exchange(other.id_, -1)),
       log_(std::exchange(other.log_, -1)),
       read_(other.read_),
-      exit_code_(other.exit_code_),
-      ended_(std::move(other.ended_)) {}
+      status_(other.status_) {}
 
 LocalProcess& LocalProcess::operator=(LocalProcess&& other) noexcept {
     std::swap(id_, other.id_);  // the other one ends what this one had
     std::swap(log_, other.log_);
     std::swap(read_, other.read_);
-    std::swap(exit_code_, other.exit_code_);
-    std::swap(ended_, other.ended_);
+    std::swap(status_, other.status_);
     return *this;
 }
 
@@ -97,19 +95,14 @@ void LocalProcess::kill() {
 
 std::optional<std::string> LocalProcess::ended() {
     int status = 0;
-    if (ended_ || waitpid(id_, &status, WNOHANG) != id_) return ended_;
-    if (WIFSIGNALED(status))
-        ended_ = "was killed by " + name_of_signal(WTERMSIG(status));
-    else {
-        exit_code_ = WEXITSTATUS(status);
-        ended_ = "ended with exit code " + std::to_string(*exit_code_);
-    }
-    return ended_;
+    if (!status_ && waitpid(id_, &status, WNOHANG) == id_) status_ = status;
+    if (!status_) return {};
+    if (WIFSIGNALED(*status_)) return "was killed by " + name_of_signal(WTERMSIG(*status_));
+    return "ended with exit code " + std::to_string(WEXITSTATUS(*status_));
 }
 
 std::optional<int> LocalProcess::exit_code() {
-    (void)ended();
-    return exit_code_;
+    return ended() && WIFEXITED(*status_) ? std::optional(WEXITSTATUS(*status_)) : std::nullopt;
 }
 
 bool LocalProcess::wait(int ms_max) {

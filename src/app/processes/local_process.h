@@ -44,9 +44,8 @@ class LocalProcess {
     LocalProcess(pid_t id, int log) : id_(id), log_(log) {}
     pid_t id_ = -1;
     int log_ = -1;
-    std::int64_t read_ = 0;  // bytes of the log that new_lines() has returned
-    std::optional<int> exit_code_;
-    std::optional<std::string> ended_;
+    std::int64_t read_ = 0;      // bytes of the log that new_lines() has returned
+    std::optional<int> status_;  // as waitpid() gave it; nullopt: it runs
 };
 
 }  // namespace roboss

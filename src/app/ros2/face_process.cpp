@@ -5,14 +5,12 @@
 
 #include "app/commands/exit_codes.h"
 #include "app/output/say.h"
+#include "app/processes/client_loop.h"
 #include "app/processes/crash_report.h"
-#include "app/processes/interrupt.h"
 #include "core/error_text.h"
 
 namespace roboss {
 namespace {
-
-constexpr std::int64_t kGoodbye_ms = 2'000;
 
 class FaceProcess {
   public:
@@ -30,41 +28,33 @@ class FaceProcess {
         transport_->on_arrival([this] { member_.bus().ring(); });
         ros2::Face face(*transport_, face_);
         for (;;) {
-            if (!show(face)) return member_.exit_code();
+            if (const std::optional<int> refused = show(face)) return *refused;
             if (const std::optional<int> ended = serve(face)) return *ended;
         }
     }
 
   private:
-    bool show(ros2::Face& face) {
+    /// The exit code if it cannot; nullopt: it does.
+    std::optional<int> show(ros2::Face& face) {
         const Address self = member_.new_address(Role::kClient);
         const auto model = member_.fetch_model(self);
-        if (!model) return false;
+        if (!model) return member_.exit_code();
         if (Result<> shown = face.show(model, self); !shown)
-            return member_.leave_at_once(shown.error()), false;
+            return member_.report_error(shown.error()), kBadInput;
         face.set_visuals(member_.visuals());
-        return true;
+        return {};
     }
 
     /// The exit code; nullopt: the run has a new Model.
     std::optional<int> serve(ros2::Face& face) {
-        std::int64_t leaving_ms = 0;
-        while (face.client().over().empty()) {
-            const std::int64_t now = member_.bus().now_ms();
-            if (leaving_ms == 0 && interrupted()) {
-                leaving_ms = now;
-                if (face.client().joined()) face.client().leave(member_.bus());
-            }
-            if (leaving_ms != 0 && (face.client().heard() || now - leaving_ms > kGoodbye_ms)) break;
+        const ClientEnd end = serve_client(member_, face.client(), [&] {
             face.advance(member_.bus());
             for (const std::string& line : face.take_notices()) member_.report(line);
-            if (face.client().outdated()) return std::nullopt;
-            if (!face.client().refusal().empty()) return report_refusal(face.client().refusal());
-            if (face.client().over().empty() && !member_.wait()) break;
-        }
-        member_.bus().flush(500);
-        if (!face.client().over().empty()) return member_.end({face.client().over(), face.client().failed()});
-        return member_.exit_code();
+            return true;
+        });
+        if (end == ClientEnd::kNewModel) return std::nullopt;
+        if (end == ClientEnd::kRefused) return report_refusal(face.client().refusal());
+        return client_exit_code(member_, face.client());
     }
 
     int report_refusal(const std::string& why) {

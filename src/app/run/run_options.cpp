@@ -272,14 +272,19 @@ void add_common_options(CLI::App& command, RunOptions& o) {
     add_watch_options(command, o, ViewerDefault::kOn);
 }
 
+/// Options that begin with `prefix` mean nothing without this one.
+void let_need(CLI::App& command, const std::string& prefix, CLI::Option* needed) {
+    for (CLI::Option* option : command.get_options())
+        if (option->get_name().starts_with(prefix)) option->needs(needed);
+}
+
 /// The nodes of ROS 2 that a run is shown to.
 void add_ros2_options(CLI::App& command, RunOptions& o) {
     CLI::Option* ros2 = command.add_flag(
         "--ros2", o.ros2.wanted,
         "show the run to ROS 2 nodes: sensors as topics, /cmd_vel ... as commands (docs/ros2.md)");
     add_ros2_options(command, o.ros2, "--ros2-");
-    for (CLI::Option* option : command.get_options())
-        if (option->get_name().starts_with("--ros2-")) option->needs(ros2);
+    let_need(command, "--ros2-", ros2);
     name_new_options(command, "ROS 2");
 }
 
@@ -290,8 +295,7 @@ void add_foxglove_options(CLI::App& command, RunOptions& o) {
         "serve Foxglove and Lichtblick at ws://localhost:8765, or with --foxglove=[ADDRESS:]PORT elsewhere "
         "(docs/foxglove.md)");
     add_foxglove_options(command, o.foxglove, "--foxglove-");
-    for (CLI::Option* option : command.get_options())
-        if (option->get_name().starts_with("--foxglove-")) option->needs(foxglove);
+    let_need(command, "--foxglove-", foxglove);
     name_new_options(command, "Foxglove");
 }
 

@@ -6,12 +6,11 @@
 #include <utility>
 
 #include "core/error_text.h"
+#include "wire/orders_only.h"
 
 namespace roboss {
 
 namespace {
-
-constexpr Tick kNeverLooks = Tick{1} << 32;  // a period of one that only gives orders
 
 constexpr std::size_t kRefusalsKept = 1'000;
 
@@ -290,7 +289,7 @@ void ClientService::queue_observations() {
 void ClientService::show_rest() {
     for (std::size_t i = 0; i < seats_.size(); ++i) {
         const ClientSeat& seat = seats_[i];
-        const bool looks = seat.serves() && seat.observer && seat.period < kNeverLooks;
+        const bool looks = seat.serves() && seat.observer && seat.period < kOrdersOnly;
         if (looks && seat.shown != directory_.tick()) queue_observation(ClientId(i));
     }
 }
