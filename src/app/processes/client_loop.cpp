@@ -6,7 +6,7 @@
 namespace roboss {
 namespace {
 
-constexpr std::int64_t kGoodbye_ms = 5'000;  // for the Controller to hear that it leaves
+constexpr std::int64_t kLeave_ms = 5'000;  // for the Controller to hear that it leaves
 
 }  // namespace
 
@@ -19,7 +19,7 @@ ClientEnd serve_client(Member& member, BusClient& client, const std::function<bo
             leaving_ms = now;
             if (stays && client.joined()) client.leave(member.bus());
         }
-        if (leaving_ms != 0 && (client.heard() || now - leaving_ms > kGoodbye_ms)) break;
+        if (leaving_ms != 0 && (client.heard() || now - leaving_ms > kLeave_ms)) break;
         stays = turn();
         if (client.outdated()) return ClientEnd::kNewModel;
         if (!client.refusal().empty()) return ClientEnd::kRefused;

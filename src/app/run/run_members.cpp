@@ -17,7 +17,7 @@ constexpr std::int64_t kSilence_ms = 1'000;      // silence after which a Simula
 constexpr std::int64_t kClientGone_ms = 10'000;  // a Client whose process is gone, until its successor joins
 constexpr double kCheckpointEvery_s = 0.2;       // of stepping time: bounds the work lost with a Simulator
 constexpr int kStartedAgainMax = 3;
-constexpr std::int64_t kLook_ms = 20;
+constexpr std::int64_t kLookEvery_ms = 20;
 constexpr std::uint32_t kOnOneComputer_ms = 5'000;  // no network can fail: a slow process is only busy
 constexpr std::int64_t kJoin_ms = 7'000;            // without another process joining
 constexpr std::int64_t kLinked_ms = 100;            // CPU time of a start, without the world
@@ -138,7 +138,7 @@ Result<> RunMembers::watch_start(const Simulation& simulation) {
 Result<> RunMembers::look_after(const Simulation& simulation) {
     if (o_.processes == 0 && companions_.empty()) return Ok{};
     const std::int64_t now = monotonic_ms();  // it asks the kernel about every process: not in every turn
-    if (now - looked_ms_ < kLook_ms) return Ok{};
+    if (now - looked_ms_ < kLookEvery_ms) return Ok{};
     looked_ms_ = now;
     for (Companion& companion : companions_)
         if (Result<> looked = companion.look(now); !looked) return looked;
