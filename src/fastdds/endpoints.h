@@ -67,6 +67,8 @@ class Reader : dds::DataReaderListener {
     Reader& operator=(const Reader&) = delete;
 
     Guid guid() const { return to_guid(reader_->guid()); }
+    /// The name of its topic in DDS.
+    const std::string& topic() const { return topic_; }
     /// Writers elsewhere.
     std::size_t writer_count() const { return writers_; }
 

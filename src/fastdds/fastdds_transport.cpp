@@ -142,6 +142,11 @@ std::size_t FastDdsTransport::publishers(EntityId subscription) const {
     return reader == nullptr ? 0 : reader->writer_count();
 }
 
+std::string FastDdsTransport::other_type(EntityId subscription) const {
+    const Reader* reader = find(subscriptions_, subscription);
+    return reader == nullptr ? std::string() : peers_.other_type(reader->topic());
+}
+
 bool FastDdsTransport::await_confirmed(EntityId publisher, std::int64_t ms_max) {
     Writer* writer = find(publishers_, publisher);
     return writer == nullptr || writer->await_confirmed(ms_max);

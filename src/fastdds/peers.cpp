@@ -53,6 +53,21 @@ void Peers::remove_own(const std::string& topic) {
     if (at != own_.end() && --at->second.uses == 0) own_.erase(at);
 }
 
+std::string Peers::other_type(const std::string& topic) const {
+    const std::lock_guard lock(mutex_);
+    const auto own = own_.find(topic);
+    const auto guids = of_topic_.find(topic);
+    if (own == own_.end() || guids == of_topic_.end()) return {};
+    std::string other;
+    for (const Guid& guid : guids->second) {
+        const Peer& peer = peers_.at(guid);
+        if (!peer.is_writer) continue;
+        if (peer.topic.type == own->second.topic.type) return {};
+        if (other.empty()) other = ros_type(peer.topic.type);
+    }
+    return other;
+}
+
 Peer Peers::of(const Guid& guid) const {
     const std::lock_guard lock(mutex_);
     const auto at = peers_.find(guid);

@@ -34,6 +34,9 @@ class Peers {
     void add_own(const DdsTopic& topic, const std::string& hash);
     /// It does so no more.
     void remove_own(const std::string& topic);
+    /// The type of writers elsewhere on a topic that this process reads, if none has its type: as ROS 2 has
+    /// it. Empty: there are none.
+    std::string other_type(const std::string& topic) const;
     /// The peer with this name; an empty one: it is not known.
     Peer of(const Guid& guid) const;
 

@@ -6,6 +6,7 @@
 #include <exception>
 #include <utility>
 
+#include "ros2/robot_names.h"
 #include "ros2/stamps.h"
 #include "ros2_types/cdr.h"
 #include "ros2_types/messages/command_messages.h"
@@ -17,6 +18,7 @@ namespace {
 constexpr std::int64_t kTellWaiting_ms = 3'000;
 constexpr std::int64_t kSettle_ms = 500;   // without a new subscription, before lockstep begins
 constexpr std::int64_t kConfirm_ms = 200;  // a subscriber that takes longer is stopped or gone
+constexpr std::int64_t kReportLockstep_ms = 5'000;
 constexpr std::size_t kNoticesMost = 200;  // different texts
 constexpr double kUsualPeriod_s = 0.02;
 
@@ -68,18 +70,22 @@ Result<> Face::show(std::shared_ptr<const Model> model, const Address& self) {
     times.synchronous = !options_.lockstep.empty();
     times.observer = options_.lockstep.empty();
     client_ = std::make_unique<BusClient>(model_, self, times);
-    topics_ = std::make_unique<RobotTopics>(model_);
-    commands_ = std::make_unique<RobotCommands>(model_, options_.stamped);
+    const std::string& root = options_.topics.root;
+    if (!root.empty() && !model_->find_robot(root))
+        return Error{"there is no robot '" + root + "' that could have no namespace",
+                     "`roboss check WORLD` prints the names of robots", "no-robot"};
+    topics_ = std::make_unique<RobotTopics>(model_, options_.topics);
+    commands_ = std::make_unique<RobotCommands>(model_, options_.topics);
     lockstep_.reset();
     if (times.synchronous) {
         Result<Lockstep> lockstep = Lockstep::of(options_.lockstep, *commands_);
         if (!lockstep) return lockstep.error();
         lockstep_ = std::move(lockstep).value();
     }
-    shown_ = -1, welcomes_ = 0, ready_ = false;
+    shown_ = -1, welcomes_ = 0, ready_ = false, misplaced_ = 0;
     subscribers_.clear(), broken_.clear();
     open_nodes();
-    services_.use(*client_, robot_nodes_);
+    services_.use(*client_, robot_nodes_, robot_names(*model_, root));
     services_.put("period", static_cast<double>(times.period) * model_->dt_s,
                   "simulated time between two looks at the world, s");
     open_topics();
@@ -90,6 +96,7 @@ Result<> Face::show(std::shared_ptr<const Model> model, const Address& self) {
 
 void Face::advance(Bus& bus) {
     client_->advance(bus);
+    follow_types(bus.now_ms());
     take_messages(bus);
     if (services_.advance(bus.now_ms()) && !lockstep_ && client_->tick() >= 0)
         client_->send(bus, client_->tick());
@@ -120,10 +127,10 @@ void Face::take_messages(Bus& bus) {
 }
 
 void Face::obey(std::size_t topic, std::string_view cdr) {
-    const Result<std::vector<Action>> orders = commands_->actions(topic, cdr);
+    const Result<std::vector<RobotOrder>> orders = commands_->orders(topic, cdr);
     if (!orders) return notice(orders.error().text());
-    for (const Action& action : orders.value())
-        (void)client_->order(commands_->topics()[topic].robot, action);  // take_refusals() has its Error
+    for (const RobotOrder& order : orders.value())
+        (void)client_->order(order.robot, order.action);  // take_refusals() has its Error
 }
 
 void Face::observe(Bus& bus) {
@@ -135,7 +142,10 @@ void Face::observe(Bus& bus) {
             publish_latched();
         }
         shown_ = client_->tick(), welcomes_ = client_->welcomes();
-        if (lockstep_) lockstep_->begin(nanoseconds(stamp_of(*model_, shown_)));
+        if (lockstep_) {
+            lockstep_->begin(nanoseconds(stamp_of(*model_, shown_)));
+            report_lockstep(now);
+        }
         waiting_since_ms_ = now, waiting_told_ = false;
     }
     if (!lockstep_) {
@@ -252,6 +262,16 @@ Result<std::optional<Sample>> Face::measure(RobotId robot, std::size_t sensor) {
         notice(model_->robots[robot.index()].name + "." + type.sensors[sensor].spec.name + ": " + why.what());
         return std::optional<Sample>{};
     }
+}
+
+void Face::report_lockstep(std::int64_t now_ms) {
+    const std::uint64_t early = lockstep_->early(), dropped = lockstep_->dropped();
+    if (early + dropped == misplaced_ || now_ms < report_lockstep_ms_) return;
+    misplaced_ = early + dropped, report_lockstep_ms_ = now_ms + kReportLockstep_ms;
+    notices_.push_back("so far " + std::to_string(early) +
+                       " messages more than one in a period, which count for the next ones, and " +
+                       std::to_string(dropped) +
+                       " that were dropped, for they came too late or twice [lockstep]");
 }
 
 void Face::notice(const std::string& line) {

@@ -27,7 +27,7 @@ namespace roboss::ros2 {
 struct FaceOptions {
     std::string name = "ros2";    ///< of the Client
     double period_s = 0;          ///< between two looks at the world; 0: that of the fastest sensor
-    bool stamped = false;         ///< velocities are TwistStamped
+    TopicOptions topics;          ///< names and frames
     FaceServiceOptions services;  ///< of the world's node
     /// The world waits for a message of each of these topics in each period; empty: it does not wait.
     std::vector<std::string> lockstep;
@@ -73,6 +73,8 @@ class Face {
 
     void take_messages(Bus& bus);
     void obey(std::size_t topic, std::string_view cdr);
+    void follow_types(std::int64_t now_ms);
+    void report_lockstep(std::int64_t now_ms);
     void observe(Bus& bus);
     bool is_ready(std::int64_t now_ms);
     void publish_latched();
@@ -108,10 +110,13 @@ class Face {
     std::int64_t settled_ms_ = 0;
     bool ready_ = false;
 
+    std::int64_t types_followed_ms_ = 0;
     Tick shown_ = -1;           // the observation whose sensors were published last
     std::size_t welcomes_ = 0;  // of the Client, when shown_ was set
     std::int64_t waiting_since_ms_ = 0;
     bool waiting_told_ = false;
+    std::uint64_t misplaced_ = 0;  // messages that were reported to be early or dropped
+    std::int64_t report_lockstep_ms_ = 0;
     std::set<std::string> told_;  // notices that were given
     std::vector<std::string> notices_;
 };

@@ -36,10 +36,11 @@ FaceServices::FaceServices(Transport& transport, EntityId world_node, FaceServic
     parameters_.put("use_sim_time", parameter_value(true), "stamps are simulated time");
 }
 
-void FaceServices::use(BusClient& client, const std::vector<EntityId>& nodes) {
+void FaceServices::use(BusClient& client, const std::vector<EntityId>& nodes,
+                       std::vector<std::string> names) {
     actions_.clear();
     run_.use(client);
-    names_ = robot_names(client.model()), nodes_ = nodes, next_ = 0;
+    names_ = std::move(names), nodes_ = nodes, next_ = 0;
     if (gazebo_ && world_ == client.model().name) return;
     world_ = client.model().name;
     gazebo_.reset();
@@ -55,7 +56,7 @@ void FaceServices::add_actions() {
     for (std::size_t made = 0; next_ < nodes_.size() && made < kActionsInATurn; ++next_) {
         const RobotId robot(next_);
         if (!follows_trajectories(run_.model().type_of(robot))) continue;
-        const std::string name = "/" + names_[next_] + "/joint_trajectory_controller/follow_joint_trajectory";
+        const std::string name = below(names_[next_], "joint_trajectory_controller/follow_joint_trajectory");
         actions_.push_back(std::make_unique<TrajectoryAction>(transport_, nodes_[next_], name, run_, robot,
                                                               options_.older_feedback));
         if (++made == kActionsInATurn || next_ + 1 == nodes_.size()) transport_.announce();

@@ -27,9 +27,9 @@ class FaceServices {
     /// Serves the node of the world. `transport` outlives it.
     FaceServices(Transport& transport, EntityId world_node, FaceServiceOptions options);
 
-    /// The run is seen by this Client from now on. `nodes`: of its robots, by RobotId. The Client outlives
-    /// this object, or the next call.
-    void use(BusClient& client, const std::vector<EntityId>& nodes);
+    /// The run is seen by this Client from now on. `nodes`, `names`: of its robots, by RobotId, as
+    /// robot_names() has them. The Client outlives this object, or the next call.
+    void use(BusClient& client, const std::vector<EntityId>& nodes, std::vector<std::string> names);
     /// Shows a number among the parameters of the node.
     void put(const std::string& parameter, double value, const std::string& description);
     /// Serves a call. False: it is of none of these services.

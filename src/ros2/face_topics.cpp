@@ -7,10 +7,16 @@
 
 namespace roboss::ros2 {
 
+namespace {
+
+constexpr std::int64_t kFollowTypes_ms = 250;
+
+}  // namespace
+
 void Face::open_nodes() {
     std::map<std::string, EntityId> now;
     robot_nodes_.clear();
-    for (const std::string& name : robot_names(*model_)) {
+    for (const std::string& name : robot_names(*model_, options_.topics.root)) {
         const auto before = nodes_.extract(name);
         robot_nodes_.push_back(before.empty() ? transport_.add_node("/" + name, "robot") : before.mapped());
         now[name] = robot_nodes_.back();
@@ -78,6 +84,27 @@ void Face::open_commands() {
         }
         if (endpoint.id != 0) command_of_[endpoint.id] = c;
     }
+}
+
+/// A topic has one type in a process. Velocities take the one that nodes publish.
+void Face::follow_types(std::int64_t now_ms) {
+    if (now_ms - types_followed_ms_ < kFollowTypes_ms) return;
+    types_followed_ms_ = now_ms;
+    bool changed = false;
+    for (std::size_t c = 0; c < commands_->topics().size(); ++c) {
+        const CommandTopic& topic = commands_->topics()[c];
+        if (!commands_->takes(c, topic.type->name)) continue;
+        const auto endpoint = subscriptions_.find(topic.name);
+        if (endpoint == subscriptions_.end() || endpoint->second.id == 0) continue;
+        const std::string other = transport_.other_type(endpoint->second.id);
+        if (!commands_->takes(c, other)) continue;
+        commands_->change_type(c);
+        notices_.push_back(topic.name + " takes " + other + " from now on, for a node publishes that");
+        changed = true;
+    }
+    if (!changed) return;
+    open_commands();
+    transport_.announce();
 }
 
 }  // namespace roboss::ros2

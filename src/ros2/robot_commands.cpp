@@ -7,6 +7,7 @@
 #include <set>
 #include <utility>
 
+#include "ros2/fleet_topics.h"
 #include "ros2/robot_names.h"
 #include "ros2_types/cdr.h"
 #include "ros2_types/messages/command_messages.h"
@@ -116,6 +117,13 @@ Result<std::vector<double>> read(std::string_view cdr, Convert convert) {
     return convert(message.value());
 }
 
+/// The command of a robot that is a velocity.
+std::optional<std::uint32_t> velocity_channel(const RobotType& type) {
+    for (std::size_t c = 0; c < type.channels.size(); ++c)
+        if (is_velocity(type.channels[c].channel)) return static_cast<std::uint32_t>(c);
+    return {};
+}
+
 /// The topic of a command in the namespace of its robot, `space`: "/scout_1/cmd_vel", also where the file
 /// says so itself. A namespace that the file gives to a plugin of gazebo_ros_pkgs takes its place.
 std::string command_topic(const Channel& channel, const std::string& space, std::set<std::string>& taken) {
@@ -142,12 +150,32 @@ std::vector<JointId> driven_joints(const RobotType& type) {
     return joints;
 }
 
-RobotCommands::RobotCommands(std::shared_ptr<const Model> model, bool stamped) : model_(std::move(model)) {
+RobotCommands::RobotCommands(std::shared_ptr<const Model> model, const TopicOptions& options)
+    : model_(std::move(model)) {
     for (const RobotType& type : model_->types) driven_.push_back(driven_joints(type));
-    const std::vector<std::string> names = robot_names(*model_);
+    const std::vector<std::string> names = robot_names(*model_, options.root);
     std::set<std::string> taken;
     for (std::size_t r = 0; r < names.size(); ++r)
-        add_robot(RobotId(r), "/" + names[r] + "/", stamped, taken);
+        add_robot(RobotId(r), below(names[r], ""), options.stamped, taken);
+    if (options.fleet) add_fleet();
+}
+
+void RobotCommands::add_fleet() {
+    fleet_ = fleet_of(*model_);
+    topics_.push_back({"/fleet/cmd_vel", &type_of<Float64MultiArray>(), Kind::kFleet, {}, 0, {}});
+}
+
+bool RobotCommands::takes(std::size_t topic, const std::string& type) const {
+    const Kind kind = topics_[topic].kind;
+    if (kind != Kind::kTwist && kind != Kind::kTwistStamped) return false;
+    return type == TwistMessage::kName || type == TwistStamped::kName;
+}
+
+void RobotCommands::change_type(std::size_t number) {
+    CommandTopic& topic = topics_[number];
+    const bool is_stamped = topic.kind == Kind::kTwistStamped;
+    topic.kind = is_stamped ? Kind::kTwist : Kind::kTwistStamped;
+    topic.type = is_stamped ? &type_of<TwistMessage>() : &type_of<TwistStamped>();
 }
 
 void RobotCommands::add_robot(RobotId robot, const std::string& space, bool stamped,
@@ -168,19 +196,20 @@ void RobotCommands::add_robot(RobotId robot, const std::string& space, bool stam
         topics_.push_back({space + name, &type_of<Float64MultiArray>(), Kind::kSetpoints, robot, 0, mode});
 }
 
-Result<std::vector<Action>> RobotCommands::actions(std::size_t number, std::string_view cdr) const {
+Result<std::vector<RobotOrder>> RobotCommands::orders(std::size_t number, std::string_view cdr) const {
     const CommandTopic& topic = topics_[number];
     const auto refusal = [&](const Error& why) {
         return Error{topic.name + ": " + why.message, why.remedy, why.code};
     };
-    if (topic.kind == Kind::kSetpoints) {
-        Result<std::vector<Action>> orders = setpoints(topic, cdr);
+    if (topic.kind == Kind::kSetpoints || topic.kind == Kind::kFleet) {
+        Result<std::vector<RobotOrder>> orders =
+            topic.kind == Kind::kFleet ? fleet_orders(cdr) : setpoints(topic, cdr);
         if (!orders) return refusal(orders.error());
         return orders;
     }
     Result<std::vector<double>> found = values(topic, cdr);
     if (!found) return refusal(found.error());
-    return std::vector<Action>{Command{topic.channel, std::move(found).value()}};
+    return std::vector{RobotOrder{topic.robot, Command{topic.channel, std::move(found).value()}}};
 }
 
 Result<std::vector<double>> RobotCommands::values(const CommandTopic& topic, std::string_view cdr) const {
@@ -207,12 +236,14 @@ Result<std::vector<double>> RobotCommands::values(const CommandTopic& topic, std
             return read<JointTrajectory>(cdr, [&](const auto& m) { return rows(channel, m); });
         case Kind::kSignal:
         case Kind::kSetpoints:
+        case Kind::kFleet:
             break;
     }
     return std::vector<double>{};
 }
 
-Result<std::vector<Action>> RobotCommands::setpoints(const CommandTopic& topic, std::string_view cdr) const {
+Result<std::vector<RobotOrder>> RobotCommands::setpoints(const CommandTopic& topic,
+                                                         std::string_view cdr) const {
     const Result<Float64MultiArray> message = from_cdr<Float64MultiArray>(cdr);
     if (!message) return message.error();
     const std::vector<JointId>& joints = driven_[model_->robots[topic.robot.index()].type.index()];
@@ -223,9 +254,32 @@ Result<std::vector<Action>> RobotCommands::setpoints(const CommandTopic& topic, 
         return wrong("it has " + std::to_string(message.value().data.size()) + " numbers",
                      "send one for each of: " + names);
     }
-    std::vector<Action> orders;
+    std::vector<RobotOrder> orders;
     for (std::size_t j = 0; j < joints.size(); ++j)
-        orders.push_back(SetJoint{joints[j], 0, topic.mode, message.value().data[j], -1});
+        orders.push_back({topic.robot, SetJoint{joints[j], 0, topic.mode, message.value().data[j], -1}});
+    return orders;
+}
+
+/// Rows of a Twist's six numbers, or of two: ahead and the turn. A robot whose row is NaN, or that takes no
+/// velocity, gets no order.
+Result<std::vector<RobotOrder>> RobotCommands::fleet_orders(std::string_view cdr) const {
+    const Result<Float64MultiArray> message = from_cdr<Float64MultiArray>(cdr);
+    if (!message) return message.error();
+    const std::vector<double>& data = message.value().data;
+    const std::size_t width = fleet_.empty() ? 0 : data.size() / fleet_.size();
+    if ((width != 2 && width != 6) || data.size() != width * fleet_.size())
+        return wrong("it has " + std::to_string(data.size()) + " numbers for " +
+                         std::to_string(fleet_.size()) + " robots",
+                     "send 2 or 6 for each line of /fleet/names");
+    std::vector<RobotOrder> orders;
+    for (std::size_t r = 0; r < fleet_.size(); ++r) {
+        const auto* row = data.data() + r * width;
+        const std::optional<std::uint32_t> channel = velocity_channel(model_->type_of(fleet_[r]));
+        if (!channel || std::isnan(row[0])) continue;
+        std::vector<double> values = width == 2 ? std::vector<double>{row[0], 0, 0, 0, 0, row[1]}
+                                                : std::vector<double>(row, row + width);
+        orders.push_back({fleet_[r], Command{*channel, std::move(values)}});
+    }
     return orders;
 }
 

@@ -4,7 +4,7 @@
 // "/car_3/cmd_vel". The message follows from the values of the command: Twist (or TwistStamped) for a
 // velocity, Float64, Bool, String, Float64MultiArray, PoseStamped, JointTrajectory, Empty. A robot without
 // on-board controllers takes the setpoints of its joints as those of ros2_control do:
-// "/arm/position_controller/commands".
+// "/arm/position_controller/commands". "/fleet/cmd_vel" drives all robots that take a velocity.
 #pragma once
 
 #include <cstdint>
@@ -16,6 +16,7 @@
 
 #include "core/result.h"
 #include "model/order.h"
+#include "ros2/topic_options.h"
 #include "ros2_types/message_type.h"
 
 namespace roboss::ros2 {
@@ -33,36 +34,50 @@ struct CommandTopic {
         kPose,          ///< a place on the ground
         kTrajectory,    ///< points of joints
         kSignal,        ///< a command without values
-        kSetpoints      ///< one for each joint
+        kSetpoints,     ///< one for each joint
+        kFleet          ///< velocities, a row for each robot of the fleet
     };
     std::string name;                       ///< "/car_3/cmd_vel"
     const MessageType* type = nullptr;      ///< of its messages
     Kind kind = Kind::kNumbers;             ///< of the messages
-    RobotId robot;                          ///< that it drives
+    RobotId robot{};                        ///< that it drives; not valid: a fleet
     std::uint32_t channel = 0;              ///< the command, in RobotType::channels; not of setpoints
     MotorMode mode = MotorMode::kVelocity;  ///< of setpoints
+};
+
+/// An order to a robot.
+struct RobotOrder {
+    RobotId robot;  ///< that shall do it
+    Action action;  ///< what it shall do
 };
 
 /// See the top of the file.
 class RobotCommands {
   public:
-    /// Collects the topics of all robots. `stamped`: velocities are TwistStamped.
-    RobotCommands(std::shared_ptr<const Model> model, bool stamped);
+    /// Collects the topics of all robots.
+    RobotCommands(std::shared_ptr<const Model> model, const TopicOptions& options);
 
-    /// All topics, by robot.
+    /// All topics, by robot; that of the fleet is the last.
     const std::vector<CommandTopic>& topics() const { return topics_; }
-    /// The orders that a message of topics()[topic] asks its robot for. An Error names the topic and what is
-    /// wrong with the message.
-    Result<std::vector<Action>> actions(std::size_t topic, std::string_view cdr) const;
+    /// True if a topic takes messages of this type as well as of its own: Twist and TwistStamped.
+    bool takes(std::size_t topic, const std::string& type) const;
+    /// From now on the topic, which takes() the other one of the two types, has that.
+    void change_type(std::size_t topic);
+    /// The orders that a message of topics()[topic] asks for. An Error names the topic and what is wrong with
+    /// the message.
+    Result<std::vector<RobotOrder>> orders(std::size_t topic, std::string_view cdr) const;
 
   private:
     void add_robot(RobotId robot, const std::string& space, bool stamped, std::set<std::string>& taken);
     Result<std::vector<double>> values(const CommandTopic& topic, std::string_view cdr) const;
-    Result<std::vector<Action>> setpoints(const CommandTopic& topic, std::string_view cdr) const;
+    Result<std::vector<RobotOrder>> setpoints(const CommandTopic& topic, std::string_view cdr) const;
+    void add_fleet();
+    Result<std::vector<RobotOrder>> fleet_orders(std::string_view cdr) const;
 
     std::shared_ptr<const Model> model_;
     std::vector<CommandTopic> topics_;
     std::vector<std::vector<JointId>> driven_;  // driven_joints() by TypeId
+    std::vector<RobotId> fleet_;                // rows of /fleet/cmd_vel
 };
 
 /// Joints of one axis that motors move, in the order of their setpoints.

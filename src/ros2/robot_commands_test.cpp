@@ -15,9 +15,12 @@ namespace {
 
 class Commands : public testing::Test {
   protected:
-    void show(ModelSpec model, bool stamped = false) {
-        model_ = test::compiled(test::on_plane(std::move(model)));
-        commands_.emplace(model_, stamped);
+    void show(ModelSpec model, const TopicOptions& options = {}) {
+        show(test::on_plane(std::move(model)), options);
+    }
+    void show(World world, const TopicOptions& options) {
+        model_ = test::compiled(std::move(world));
+        commands_.emplace(model_, options);
     }
     std::size_t find(const std::string& name) const {
         for (std::size_t t = 0; t < commands_->topics().size(); ++t)
@@ -29,18 +32,18 @@ class Commands : public testing::Test {
         return commands_->topics()[find(name)].type->name;
     }
     template <Message M>
-    Result<std::vector<Action>> actions(const std::string& name, const M& message) const {
-        return commands_->actions(find(name), to_cdr(message));
+    Result<std::vector<RobotOrder>> orders(const std::string& name, const M& message) const {
+        return commands_->orders(find(name), to_cdr(message));
     }
     /// The values of the only command that the message is.
     template <Message M>
     std::vector<double> values(const std::string& name, const M& message) const {
-        const Result<std::vector<Action>> orders = actions(name, message);
-        if (!orders || orders.value().size() != 1)
+        const Result<std::vector<RobotOrder>> found = orders(name, message);
+        if (!found || found.value().size() != 1)
             return ADD_FAILURE() << "not one order", std::vector<double>{};
-        return std::get<Command>(orders.value().front()).values;
+        return std::get<Command>(found.value().front().action).values;
     }
-    std::string refusal(const Result<std::vector<Action>>& orders) const {
+    std::string refusal(const Result<std::vector<RobotOrder>>& orders) const {
         return orders ? "" : orders.error().text();
     }
     std::shared_ptr<const Model> model_;
@@ -73,10 +76,57 @@ TEST_F(Commands, AreInTheNamespaceOfTheirRobotWhateverTheFileSays) {
 }
 
 TEST_F(Commands, VelocitiesAreStampedWhereThatIsAsked) {
-    show(test::with_onboard(test::two_wheeler(), test::diff_drive()), true);
+    TopicOptions options;
+    options.stamped = true;
+    show(test::with_onboard(test::two_wheeler(), test::diff_drive()), options);
     EXPECT_EQ(type_of_topic("/robot/cmd_vel"), "geometry_msgs/msg/TwistStamped");
     EXPECT_EQ(values("/robot/cmd_vel", TwistStamped{{}, {{1, 0, 0}, {0, 0, 2}}}),
               (std::vector<double>{1, 0, 0, 0, 0, 2}));
+}
+
+TEST_F(Commands, AVelocityTakesTheOtherTypeWhenToldTo) {
+    show(test::with_onboard(test::two_wheeler(), test::diff_drive()));
+    const std::size_t drive = find("/robot/cmd_vel");
+    EXPECT_TRUE(commands_->takes(drive, TwistStamped::kName));
+    EXPECT_FALSE(commands_->takes(drive, Bool::kName));
+    EXPECT_FALSE(commands_->takes(find("/robot/enable"), TwistStamped::kName));
+    commands_->change_type(drive);
+    EXPECT_EQ(type_of_topic("/robot/cmd_vel"), "geometry_msgs/msg/TwistStamped");
+    EXPECT_EQ(values("/robot/cmd_vel", TwistStamped{{}, {{1, 0, 0}, {0, 0, 2}}}),
+              (std::vector<double>{1, 0, 0, 0, 0, 2}));
+    commands_->change_type(drive);
+    EXPECT_EQ(values("/robot/cmd_vel", TwistMessage{{3, 0, 0}, {}}), (std::vector<double>{3, 0, 0, 0, 0, 0}));
+}
+
+TEST_F(Commands, TheRobotAtTheRootHasNoNamespace) {
+    TopicOptions options;
+    options.root = "robot";
+    show(test::with_onboard(test::two_wheeler(), test::diff_drive()), options);
+    EXPECT_EQ(type_of_topic("/cmd_vel"), "geometry_msgs/msg/Twist");
+}
+
+TEST_F(Commands, AFleetIsDrivenByRows) {
+    TopicOptions options;
+    options.fleet = true;
+    World world = test::on_plane(test::with_onboard(test::two_wheeler(), test::diff_drive()));
+    test::place(world, test::two_wheeler(), "idle", {{0, 3, 0}, {}});
+    test::place(world, test::with_onboard(test::two_wheeler(), test::diff_drive()), "third", {{0, 6, 0}, {}});
+    show(std::move(world), options);
+    Float64MultiArray rows;
+    rows.data = {1, 2, 3, 4, 5, 6};
+    auto found = orders("/fleet/cmd_vel", rows);
+    ASSERT_TRUE(found) << found.error().text();
+    ASSERT_EQ(found.value().size(), 2u) << "the second robot takes no velocity";
+    EXPECT_EQ(found.value()[1].robot, RobotId(2u));
+    EXPECT_EQ(std::get<Command>(found.value()[1].action).values, (std::vector<double>{5, 0, 0, 0, 0, 6}));
+    rows.data = std::vector<double>(18, 7);
+    rows.data[12] = std::numeric_limits<double>::quiet_NaN();
+    found = orders("/fleet/cmd_vel", rows);
+    ASSERT_TRUE(found);
+    ASSERT_EQ(found.value().size(), 1u) << "NaN: no order";
+    EXPECT_EQ(std::get<Command>(found.value()[0].action).values, std::vector<double>(6, 7));
+    rows.data.pop_back();
+    EXPECT_NE(refusal(orders("/fleet/cmd_vel", rows)).find("17 numbers for 3 robots"), std::string::npos);
 }
 
 TEST_F(Commands, ATrajectoryNamesItsJointsInAnyOrder) {
@@ -90,21 +140,21 @@ TEST_F(Commands, ATrajectoryNamesItsJointsInAnyOrder) {
               (std::vector<double>{0.5, 2, 4, 0, 1, 3, 0, 1, 6, 0, 0, 5, 0, 0}));
 
     trajectory.points[1].time_from_start = {0, 500'000'000};
-    EXPECT_NE(refusal(actions("/robot/joint_trajectory", trajectory)).find("ascend"), std::string::npos);
+    EXPECT_NE(refusal(orders("/robot/joint_trajectory", trajectory)).find("ascend"), std::string::npos);
     trajectory.joint_names[1] = "arm";
-    EXPECT_NE(refusal(actions("/robot/joint_trajectory", trajectory)).find("left_joint"), std::string::npos);
+    EXPECT_NE(refusal(orders("/robot/joint_trajectory", trajectory)).find("left_joint"), std::string::npos);
 }
 
 TEST_F(Commands, RobotsWithoutControllersTakeSetpointsOfTheirJoints) {
     show(test::two_wheeler());
     Float64MultiArray message;
     message.data = {0.5, -1};
-    const auto orders = actions("/robot/velocity_controller/commands", message);
-    ASSERT_TRUE(orders) << orders.error().text();
-    ASSERT_EQ(orders.value().size(), 2u);
-    EXPECT_EQ(orders.value()[1], Action(SetJoint{JointId(1u), 0, MotorMode::kVelocity, -1, -1}));
+    const auto found = orders("/robot/velocity_controller/commands", message);
+    ASSERT_TRUE(found) << found.error().text();
+    ASSERT_EQ(found.value().size(), 2u);
+    EXPECT_EQ(found.value()[1].action, Action(SetJoint{JointId(1u), 0, MotorMode::kVelocity, -1, -1}));
     message.data = {1};
-    EXPECT_NE(refusal(actions("/robot/effort_controller/commands", message)).find("left_joint, right_joint"),
+    EXPECT_NE(refusal(orders("/robot/effort_controller/commands", message)).find("left_joint, right_joint"),
               std::string::npos);
 }
 
@@ -125,12 +175,12 @@ TEST_F(Commands, APoseIsAPlaceOnTheGround) {
 
 TEST_F(Commands, BytesThatAreNoMessageAreRefusedByName) {
     show(test::with_onboard(test::two_wheeler(), test::diff_drive()));
-    const auto orders = commands_->actions(find("/robot/cmd_vel"), std::string("\0\1\0\0abc", 7));
-    ASSERT_FALSE(orders);
-    EXPECT_EQ(orders.error().code, "bad-message");
-    EXPECT_NE(orders.error().message.find("/robot/cmd_vel: these bytes are no geometry_msgs/msg/Twist"),
+    const auto found = commands_->orders(find("/robot/cmd_vel"), std::string("\0\1\0\0abc", 7));
+    ASSERT_FALSE(found);
+    EXPECT_EQ(found.error().code, "bad-message");
+    EXPECT_NE(found.error().message.find("/robot/cmd_vel: these bytes are no geometry_msgs/msg/Twist"),
               std::string::npos)
-        << orders.error().message;
+        << found.error().message;
 }
 
 }  // namespace

@@ -37,12 +37,17 @@ std::string unique_name(const std::string& name, std::set<std::string>& taken) {
     return result;
 }
 
-std::vector<std::string> robot_names(const Model& model) {
-    std::set<std::string> taken{"clock", "tf", "tf_static"};  // topics of the world
+std::vector<std::string> robot_names(const Model& model, const std::string& root) {
+    std::set<std::string> taken{"clock", "fleet", "tf", "tf_static"};  // of the world
     std::vector<std::string> names;
     names.reserve(model.robots.size());
-    for (const Robot& robot : model.robots) names.push_back(unique_name(ros_name(robot.name), taken));
+    for (const Robot& robot : model.robots)
+        names.push_back(!root.empty() && robot.name == root ? "" : unique_name(ros_name(robot.name), taken));
     return names;
+}
+
+std::string below(const std::string& robot, const std::string& name) {
+    return (robot.empty() ? "/" : "/" + robot + "/") + name;
 }
 
 }  // namespace roboss::ros2

@@ -18,7 +18,11 @@ std::string ros_path(const std::string& path);
 /// The name, or with _2, _3 ... the first that is not taken; takes it.
 std::string unique_name(const std::string& name, std::set<std::string>& taken);
 
-/// The namespace of each robot without "/" in front, by RobotId: "car_3".
-std::vector<std::string> robot_names(const Model& model);
+/// The namespace of each robot without "/" in front, by RobotId: "car_3". That of `root`, the name of a robot
+/// in the world, is "".
+std::vector<std::string> robot_names(const Model& model, const std::string& root);
+
+/// The name in the namespace of a robot, as robot_names() has it: "/car_3/scan", or "/scan".
+std::string below(const std::string& robot, const std::string& name);
 
 }  // namespace roboss::ros2

@@ -5,7 +5,8 @@
 // or two for each sensor: "/car_3/scan"; "/car_3/front/scan" where the robot has several sensors with such a
 // topic, and always for cameras. A topic or frame that the file gives to a sensor takes its place. Frames are
 // "world", "car_3/chassis" for a link, "car_3/chassis/front" for a sensor, "car_3/chassis/eye_optical_frame"
-// for images, "car_3/odom" for odometry.
+// for images, "car_3/odom" for odometry. Plain frames are "chassis" and "odom"; each robot then has "tf" and
+// "tf_static" in its namespace, and its base stands where its odometry sees it.
 #pragma once
 
 #include <functional>
@@ -16,6 +17,7 @@
 #include <vector>
 
 #include "model/robot_state.h"
+#include "ros2/topic_options.h"
 #include "ros2_types/transport.h"
 #include "sensor_kinds/sensor_spec.h"
 
@@ -28,6 +30,8 @@ struct Topic {
     bool is_latched = false;    ///< who comes later gets the last message, too
     RobotId robot{};            ///< that has it; not valid: the world
 };
+
+class FleetTopics;
 
 /// See the top of the file.
 class RobotTopics {
@@ -44,7 +48,7 @@ class RobotTopics {
     };
 
     /// Collects the topics of all robots of a world.
-    explicit RobotTopics(std::shared_ptr<const Model> model);
+    explicit RobotTopics(std::shared_ptr<const Model> model, const TopicOptions& options = {});
     ~RobotTopics();
     RobotTopics(RobotTopics&&) noexcept;
     RobotTopics& operator=(RobotTopics&&) noexcept;
@@ -72,11 +76,14 @@ class RobotTopics {
     struct Taken;
     struct RobotPart;
 
-    void add_robot(RobotId robot, const std::string& name, Taken& taken);
-    void add_sensors(RobotId robot, const std::string& name, Taken& taken);
-    std::string fixed_frames(Tick tick) const;
-    std::string moving_frames(Tick tick, std::span<const RobotState> states) const;
-    std::string joint_states(Tick tick, RobotId robot, const RobotState& state) const;
+    std::size_t add_topic(const std::string& name, const MessageType& type, bool is_latched, RobotId robot);
+    void add_robot(RobotId robot, const std::string& name, const TopicOptions& options, Taken& taken);
+    void add_sensors(RobotId robot, Taken& taken);
+    void add_fixed_frames(Tick tick, std::vector<Message>& out) const;
+    Result<> add_moving_frames(Tick tick, std::span<const RobotState> states, const Measure& measure,
+                               std::vector<Message>& out) const;
+    void add_robot_messages(Tick tick, RobotId robot, const RobotState& state,
+                            std::vector<Message>& out) const;
     bool is_due(const Source& source, Tick tick) const;
     void add_readings(const Source& source, Tick tick, const Sample& sample, std::vector<Message>& out) const;
 
@@ -86,7 +93,8 @@ class RobotTopics {
     std::vector<std::string> left_out_;
     std::vector<Source> sources_;
     std::vector<RobotPart> robots_;
-    Tick last_ = -1, before_ = -1;  // ticks of the last two calls
+    std::unique_ptr<FleetTopics> fleet_;  // null: there are none
+    Tick last_ = -1, before_ = -1;        // ticks of the last two calls
 };
 
 }  // namespace roboss::ros2

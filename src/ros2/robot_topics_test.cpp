@@ -6,7 +6,9 @@
 #include <cmath>
 #include <map>
 
+#include "physics/dynamics/kinematics.h"
 #include "ros2_types/cdr.h"
+#include "ros2_types/messages/command_messages.h"
 #include "ros2_types/messages/sensor_messages.h"
 #include "sensors/test_model.h"
 
@@ -161,6 +163,112 @@ TEST(RobotTopics, SensorsWithARateHaveMessagesWhenASampleIsDue) {
     }
     EXPECT_EQ(scans, 10);
     EXPECT_EQ(ranges, 50);
+}
+
+/// A cart that drives by an odometry, too.
+std::shared_ptr<Model> odometric_carts() {
+    const std::shared_ptr<Model> model = carts();
+    model->types[0].sensors.push_back({sensor("wheels", WheelOdometrySpec{}), LinkId(std::size_t{0})});
+    return model;
+}
+
+Result<std::optional<Sample>> with_odometry(RobotId robot, std::size_t number) {
+    if (number != 5) return measured(robot, number);
+    WheelOdometryReading wheels;
+    wheels.x = 4, wheels.y = 5, wheels.heading = 1;
+    return std::optional<Sample>(wheels);
+}
+
+TEST(RobotTopics, PlainFramesStandWhereTheOdometrySeesThem) {
+    TopicOptions options;
+    options.plain_frames = true;
+    RobotTopics topics(odometric_carts(), options);
+    const auto all = topics.messages(0, moving_states(), with_odometry);
+    ASSERT_TRUE(all);
+    auto found = by_topic(topics, all.value());
+    EXPECT_FALSE(found.contains("/tf"));
+    const auto frames = from_cdr<TFMessage>(found["/inner/cart/tf"]).value().transforms;
+    ASSERT_EQ(frames.size(), 2u);
+    EXPECT_EQ(frames[0].header.frame_id, "odom");
+    EXPECT_EQ(frames[0].child_frame_id, "cart");
+    EXPECT_EQ(frames[0].transform.translation.x, 4);
+    EXPECT_NEAR(frames[0].transform.rotation.z, std::sin(0.5), 1e-15);
+    EXPECT_EQ(frames[1].header.frame_id, "cart");
+    EXPECT_EQ(frames[1].child_frame_id, "wheel");
+    const auto odometry = from_cdr<Odometry>(found["/cart_1/odom"]).value();
+    EXPECT_EQ(odometry.header.frame_id, "odom");
+    EXPECT_EQ(odometry.child_frame_id, "cart");
+    EXPECT_EQ(odometry.pose.pose.position.y, 5);
+
+    auto latched = by_topic(topics, topics.latched(0));
+    const std::string urdf = from_cdr<String>(latched["/cart_1/robot_description"]).value().data;
+    EXPECT_NE(urdf.find(R"(<link name="wheel">)"), std::string::npos);
+    for (const TransformStamped& frame :
+         from_cdr<TFMessage>(latched["/cart_1/tf_static"]).value().transforms) {
+        EXPECT_NE(frame.header.frame_id, "world") << "a localization says where odom is";
+        EXPECT_EQ(frame.child_frame_id.find("cart_1"), std::string::npos);
+    }
+}
+
+TEST(RobotTopics, TheRobotAtTheRootHasNoNamespace) {
+    TopicOptions options;
+    options.root = "inner::cart";
+    RobotTopics topics(odometric_carts(), options);
+    const auto all = topics.messages(0, moving_states(), with_odometry);
+    ASSERT_TRUE(all);
+    auto found = by_topic(topics, all.value());
+    EXPECT_TRUE(found.contains("/scan") && found.contains("/joint_states") && found.contains("/cart_1/scan"));
+    std::vector<std::string> children;
+    for (const TransformStamped& frame : from_cdr<TFMessage>(found["/tf"]).value().transforms)
+        children.push_back(frame.header.frame_id + ">" + frame.child_frame_id);
+    EXPECT_EQ(children, (std::vector<std::string>{"world>cart_1/cart", "cart_1/cart>cart_1/wheel",
+                                                  "odom>cart", "cart>wheel"}));
+}
+
+TEST(RobotTopics, GroundTruthIsInTheWorldAndItsVelocityInTheBase) {
+    TopicOptions options;
+    options.ground_truth = true;
+    RobotTopics topics(carts(), options);
+    std::vector<RobotState> states = moving_states();
+    const double half = std::sqrt(0.5);
+    states[0].q[3] = half, states[0].q[6] = half;  // turned by 90 degrees about z
+    states[0].v = {0, 0, 0.5, 1, 2, 0, 0};
+    const Twist twist = link_twist(cart_type(), states[0], LinkId(std::size_t{0}));
+    const auto all = topics.messages(0, states, measured);
+    ASSERT_TRUE(all);
+    const auto truth = from_cdr<Odometry>(by_topic(topics, all.value())["/cart_1/ground_truth"]).value();
+    EXPECT_EQ(truth.header.frame_id, "world");
+    EXPECT_EQ(truth.child_frame_id, "cart_1/cart");
+    EXPECT_EQ(truth.pose.pose.position.z, 3);
+    EXPECT_NEAR(truth.twist.twist.linear.x, twist.linear.y, 1e-12) << "its x is the world's y";
+    EXPECT_NEAR(truth.twist.twist.linear.y, -twist.linear.x, 1e-12);
+    EXPECT_NEAR(truth.twist.twist.angular.z, twist.angular.z, 1e-12);
+    EXPECT_GT(norm(twist.linear), 1) << "the test needs a motion";
+}
+
+TEST(RobotTopics, AFleetIsOneMessage) {
+    TopicOptions options;
+    options.fleet = true;
+    RobotTopics topics(carts(), options);
+    EXPECT_EQ(from_cdr<String>(by_topic(topics, topics.latched(0))["/fleet/names"]).value().data,
+              "cart_1\ninner/cart");
+    const auto all = topics.messages(0, moving_states(), measured);
+    ASSERT_TRUE(all);
+    auto found = by_topic(topics, all.value());
+    const auto states = from_cdr<Float64MultiArray>(found["/fleet/states"]).value();
+    ASSERT_EQ(states.data.size(), 26u);
+    EXPECT_EQ(states.layout.dim[1].size, 13u);
+    EXPECT_EQ(states.data[13], 1);  // x of the second
+    EXPECT_EQ(states.data[15], 3);
+    EXPECT_EQ(from_cdr<PoseArray>(found["/fleet/poses"]).value().poses.size(), 2u);
+    EXPECT_EQ(from_cdr<JointStateMessage>(found["/fleet/joint_states"]).value().name,
+              (std::vector<std::string>{"cart_1/axle", "inner/cart/axle"}));
+    const auto scans = from_cdr<Float32MultiArray>(found["/fleet/scans"]).value();
+    ASSERT_EQ(scans.data.size(), 6u);
+    EXPECT_EQ(scans.data[5], 2.5f);
+    const auto later = topics.messages(1, moving_states(), measured);  // no scan is due after 10 ms
+    ASSERT_TRUE(later);
+    EXPECT_FALSE(by_topic(topics, later.value()).contains("/fleet/scans"));
 }
 
 TEST(RobotTopics, WhatIsNotWantedIsNotMeasured) {

@@ -2,6 +2,7 @@
 #include "ros2/sensor_messages.h"
 
 #include <cmath>
+#include <map>
 
 namespace roboss::ros2::sensor_messages {
 
@@ -53,13 +54,66 @@ CameraInfo camera_info(const CameraOptics& optics, const std::vector<double>& in
     return info;
 }
 
+Contacts contacts(const ContactReading& reading, const SensorPlace& place) {
+    constexpr std::uint8_t kModel = 2, kLink = 3;  // types of an Entity
+    Contacts message;
+    message.header = header(place, "world");
+    std::map<double, std::size_t> places;  // of other robots in the message
+    const auto point = [](const std::vector<double>& numbers, std::size_t i) {
+        return Vector3{numbers[3 * i], numbers[3 * i + 1], numbers[3 * i + 2]};
+    };
+    for (std::size_t i = 0; i < reading.count(); ++i) {
+        const double other = reading.others[i];
+        const std::string name =
+            other < 0 ? "world" : place.model.robots[static_cast<std::size_t>(other)].name;
+        const auto [at, is_new] = places.try_emplace(other, message.contacts.size());
+        if (is_new)
+            message.contacts.push_back({{0, place.link_frame, kLink}, {0, name, kModel}, {}, {}, {}, {}});
+        GazeboContact& contact = message.contacts[at->second];
+        const Vector3 force = point(reading.forces, i);
+        contact.positions.push_back(point(reading.positions, i));
+        contact.normals.push_back(point(reading.normals, i));
+        contact.wrenches.push_back({message.header,
+                                    {place.link_frame},
+                                    {},
+                                    {name},
+                                    {},
+                                    {force, {}},
+                                    {{-force.x, -force.y, -force.z}, {}}});
+    }
+    return message;
+}
+
+bool is_odometry(const SensorSpec& sensor) {
+    return sensor.as<OdometrySpec>() || sensor.as<WheelOdometrySpec>();
+}
+
+Pose odometry_pose(const Sample& sample) {
+    if (const auto* reading = std::get_if<OdometryReading>(&sample))
+        return {reading->position_W, reading->orientation_W};
+    const auto* reading = std::get_if<WheelOdometryReading>(&sample);
+    if (reading == nullptr) return {};
+    return {{reading->x, reading->y, 0},
+            Quat{std::cos(0.5 * reading->heading), 0, 0, std::sin(0.5 * reading->heading)}};
+}
+
 double cone_angle(const SonarSpec& sonar) {
     return sonar.geometry == "cone" ? 2 * std::atan2(sonar.radius, sonar.range_max) : 2 * kPi;
 }
 
-PoseMessage planar_pose(const WheelOdometryReading& reading) {
-    return {{reading.x, reading.y, 0},
-            {0, 0, std::sin(0.5 * reading.heading), std::cos(0.5 * reading.heading)}};
+const CameraOptics* optics_of(const SensorSpec& sensor) {
+    const CameraOptics* optics = nullptr;
+    std::visit(
+        [&](const auto& spec) {
+            if constexpr (requires { spec.optics; }) optics = &spec.optics;
+        },
+        sensor.parameters);
+    return optics;
+}
+
+Transform X_optical(const CameraOptics& optics) {
+    const Transform ahead{to_matrix(Quat{0.5, -0.5, 0.5, -0.5}), {}};  // w x y z
+    return to_transform(optics.X_SC) * ahead;
 }
 
 }  // namespace roboss::ros2::sensor_messages

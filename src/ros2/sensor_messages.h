@@ -4,6 +4,7 @@
 #pragma once
 
 #include "model/model.h"
+#include "ros2_types/messages/gazebo_messages.h"
 #include "ros2_types/messages/sensor_messages.h"
 #include "sensor_kinds/sensor_spec.h"
 
@@ -14,6 +15,7 @@ struct SensorPlace {
     const Model& model;
     const SensorInfo& info;  ///< the sensor
     std::string frame,       ///< of the sensor
+        link_frame,          ///< of the link that carries it
         optical_frame,       ///< of a camera: z ahead, x right, y down
         base_frame,          ///< of the robot's base link
         odometry_frame;      ///< of the poses of an odometry
@@ -41,6 +43,8 @@ PointCloud2 cloud(const LaserSpec& laser, const LaserReading& reading, const Sen
 /// The calibration of a camera whose image has this size.
 CameraInfo camera_info(const CameraOptics& optics, const std::vector<double>& intrinsics,
                        const std::vector<double>& distortion, const SensorPlace& place);
+/// What touches the link, one contact for each other robot; normals and forces in the axes of the world.
+Contacts contacts(const ContactReading& reading, const SensorPlace& place);
 /// True if a laser is a single level row of beams at even angles, as LaserScan demands.
 bool is_level_scan(const LaserSpec& laser);
 
@@ -73,7 +77,14 @@ inline PoseMessage pose(const Vec3& p, const Quat& q) {
     return {{p.x, p.y, p.z}, quaternion(q)};
 }
 double cone_angle(const SonarSpec& sonar);
-PoseMessage planar_pose(const WheelOdometryReading& reading);
+/// True if the sensor is an odometry, of wheels or of a publisher.
+bool is_odometry(const SensorSpec& sensor);
+/// Where an odometry sees the base, m.
+Pose odometry_pose(const Sample& sample);
+/// The optics of a camera; null: it is none.
+const CameraOptics* optics_of(const SensorSpec& sensor);
+/// A camera's optical frame in the frame of the sensor: z ahead, x right, y down.
+Transform X_optical(const CameraOptics& optics);
 
 }  // namespace sensor_messages
 
@@ -173,7 +184,8 @@ void publish(const WheelOdometrySpec&, const WheelOdometryReading& reading, cons
     Odometry odometry;
     odometry.header = sensor_messages::header(place, place.odometry_frame);
     odometry.child_frame_id = place.base_frame;
-    odometry.pose.pose = sensor_messages::planar_pose(reading);
+    const Pose seen = sensor_messages::odometry_pose(reading);
+    odometry.pose.pose = sensor_messages::pose(seen.p, seen.q);
     odometry.twist.twist.linear.x = reading.linear, odometry.twist.twist.angular.z = reading.angular;
     out("odom", odometry);
 }
@@ -251,6 +263,17 @@ void publish(const SegmentationCameraSpec& camera, const SegmentationCameraReadi
     using namespace sensor_messages;
     out("labels/image_raw", image(reading.labels, "mono8", place));
     out("labels/camera_info", camera_info(camera.optics, reading.intrinsics, reading.distortion, place));
+}
+
+template <class Out>
+void publish(const AltimeterSpec&, const AltimeterReading& reading, const SensorPlace& place, Out&& out) {
+    out("altimeter", Altimeter{sensor_messages::header(place, place.frame), reading.vertical_position,
+                               reading.vertical_velocity, reading.reference});
+}
+
+template <class Out>
+void publish(const ContactSpec&, const ContactReading& reading, const SensorPlace& place, Out&& out) {
+    out("contacts", sensor_messages::contacts(reading, place));
 }
 
 /// The function of the sensor's kind. `sample`: its reading; null: an empty one.

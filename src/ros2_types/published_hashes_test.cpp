@@ -31,6 +31,8 @@ TEST(PublishedHashes, Commands) {
     expect_hash<Float64>("705ba9c3d1a09df43737eb67095534de36fd426c0587779bda2bc51fe790182a");
     expect_hash<MultiArrayDimension>("5e773a60a4c7fc8a54985f307c7837aa2994252a126c301957a24e31282c9cbe");
     expect_hash<MultiArrayLayout>("4c66e6f78e740ac103a94cf63259f968e48c617e7699e829b63c21a5cb50dac6");
+    expect_hash<Float32MultiArray>("0599f6f85b4bfca379873a0b4375a0aca022156bd2d7021275d116ed1fa8bfe0");
+    expect_hash<PoseArray>("af0cc36d190e104d546d168d6b39df04fa4b4ccecf59cb4c9ed328d3d5004aa0");
     expect_hash<Float64MultiArray>("1025ddc6b9552d191f89ef1a8d2f60f3d373e28b283d8891ddcc974e8c55397f");
     expect_hash<TwistStamped>("5f0fcd4f81d5d06ad9b4c4c63e3ea51b82d6ae4d0558f1d475229b1121db6f64");
     expect_hash<AccelMessage>("dc448243ded9b1fcbcca24aba0c22f013dae06c354ba2d849571c0a2a3f57ca0");
@@ -168,6 +170,14 @@ TEST(PublishedHashes, SimulationServicesOfVersion1) {
     expect_hash<SpawnEntity>("d4c086345d4194a5fc4c9ae45095736ca4062b5cdac4d06a42dec93d683e03cf");
     expect_hash<SetEntityState>("ca210e7d2b66629ae133c8e1edf5246e618106d75c78ed0556c0e7a33c59ee5e");
     expect_hash<LoadWorld>("f210682338f195f6f06191b46b20ec4992bddf485d33e2cffab2dd15341b4e3e");
+}
+
+TEST(PublishedHashes, GazeboMessages) {
+    expect_hash<UInt32>("a5c874829b752bc5fa190024b0ad76f578cc278271e855c7d02a818b3516fb4a");
+    expect_hash<Altimeter>("c1e452c867a0dd147e2a612d1f78e5da9675ae5ef75c0950ad1520f004101703");
+    expect_hash<JointWrench>("aa50610f0bc1a9f1f42a04e6d76da729968d0f91b62f48b2040c4dc866c02686");
+    expect_hash<GazeboContact>("ba5acbac280b8650f9ad7caf995888ff8aca861742e0159d8d36efe8460d0db3");
+    expect_hash<Contacts>("2cf36dd51e105580839fb7d6c028846a6342a8dfd62fde733d05f3e0c9ec4b5b");
 }
 
 TEST(PublishedHashes, GazeboServices) {

@@ -87,6 +87,9 @@ class Transport {
     virtual std::size_t subscribers(EntityId publisher) const = 0;
     /// How many publishers elsewhere send to a subscription.
     virtual std::size_t publishers(EntityId subscription) const = 0;
+    /// The type that publishers elsewhere have on the topic of a subscription, if none has the subscription's
+    /// own: "geometry_msgs/msg/TwistStamped". Empty: there are no such publishers.
+    virtual std::string other_type(EntityId subscription) const = 0;
     /// Waits until all reliable subscriptions have confirmed all messages. False: not within this time.
     virtual bool await_confirmed(EntityId publisher, std::int64_t ms_max) = 0;
 
@@ -102,6 +105,6 @@ class Transport {
 /// `roboss_ros2_transport` of the shared library returns a Transport, or null and why in `problem`.
 using OpenTransport = Transport* (*)(int abi, const TransportOptions& options, Error& problem);
 /// Version of this interface; a library of another one is refused.
-inline constexpr int kTransportAbi = 2;
+inline constexpr int kTransportAbi = 3;
 
 }  // namespace roboss::ros2

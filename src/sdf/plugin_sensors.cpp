@@ -83,7 +83,7 @@ std::optional<PluginSensor> read_sensor(const Element& plugin, const Element& bl
     sensor.spec.name = sensor_name(plugin, kind.plugin);
     sensor.spec.topic = channel_of(text_of(plugin, kind.plugin.topic), kind.plugin.usual_topic, {}).topic;
     sensor.spec.ros_topic = text_of(plugin, kind.plugin.topic);
-    sensor.spec.ros_frame = text_of(plugin, "frame_id");
+    sensor.spec.ros_frame = text_of(plugin, "frame_id|odometry_frame|odometryFrame|odom_frame");
     sensor.spec.update_rate_hz = rate_of(plugin, kind.plugin, local);
     use_parameters(sensor);
     for (const SensorProblem& problem : problems_of(sensor.spec))

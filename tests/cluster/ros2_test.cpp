@@ -138,6 +138,37 @@ TEST_F(RunWithNodes, SeeThePausedWorldAtAnyTick) {
     EXPECT_GE(face->client().tick(), 40);
 }
 
+TEST_F(RunWithNodes, PublishTheTypeOfVelocityThatTheyHave) {
+    start({});
+    run(20);
+    transport.other_types["/robot/cmd_vel"] = ros2::TwistStamped::kName;
+    const std::int64_t end_ms = monotonic_ms() + 10'000;
+    while (transport.types["/robot/cmd_vel"] != ros2::TwistStamped::kName && monotonic_ms() < end_ms)
+        face->advance(*bus_);
+    EXPECT_EQ(transport.types["/robot/cmd_vel"], ros2::TwistStamped::kName);
+    EXPECT_EQ(transport.types["/other/cmd_vel"], ros2::TwistMessage::kName);
+    transport.send("/robot/cmd_vel", ros2::TwistStamped{{}, {{0.5, 0, 0}, {}}});
+    run(1000);
+    EXPECT_GT(base_pose(simulation->states()[0]).p.x, 0.5);
+    const std::vector<std::string> notices = face->take_notices();
+    ASSERT_EQ(notices.size(), 1u);
+    EXPECT_NE(notices.front().find("/robot/cmd_vel takes geometry_msgs/msg/TwistStamped"), std::string::npos);
+}
+
+TEST_F(RunWithNodes, NameARobotForTheRootThatIsThere) {
+    FaceOptions options;
+    options.topics.root = "other";
+    start(options);
+    EXPECT_NE(transport.find("/cmd_vel"), 0u);
+    EXPECT_EQ(transport.names.at(transport.node_of.at(transport.find("/cmd_vel"))), "/robot");
+    options.topics.root = "nobody";
+    TestTransport second;
+    Face wrong(second, options);
+    const Result<> shown = wrong.show(model, Address{Role::kClient, 78});
+    ASSERT_FALSE(shown.ok());
+    EXPECT_NE(shown.error().text().find("nobody"), std::string::npos);
+}
+
 TEST_F(RunWithNodes, SeeTheNodesGoWithTheFace) {
     start({});
     face.reset();

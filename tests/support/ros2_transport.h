@@ -59,6 +59,10 @@ class TestTransport : public ros2::Transport {
     std::size_t publishers(ros2::EntityId subscription) const override {
         return driven.contains(names.at(subscription)) ? 1 : 0;
     }
+    std::string other_type(ros2::EntityId subscription) const override {
+        const auto other = other_types.find(names.at(subscription));
+        return other == other_types.end() || other->second == types.at(other->first) ? "" : other->second;
+    }
     bool await_confirmed(ros2::EntityId, std::int64_t) override { return true; }
     std::vector<ros2::Incoming> take(std::int64_t) override { return std::exchange(arrived, {}); }
     std::vector<std::string> take_notices() override { return {}; }
@@ -97,9 +101,10 @@ class TestTransport : public ros2::Transport {
     std::map<std::string, std::vector<std::string>> published;  // by topic
     std::map<std::int64_t, std::vector<std::string>> replies;   // by number of the call
     std::vector<ros2::Incoming> arrived;
-    bool has_listeners = true;         // to all topics
-    std::set<std::string> subscribed,  // topics that nodes elsewhere subscribe to
-        driven;                        // topics that they publish
+    bool has_listeners = true;                       // to all topics
+    std::set<std::string> subscribed,                // topics that nodes elsewhere subscribe to
+        driven;                                      // topics that they publish
+    std::map<std::string, std::string> other_types;  // the types that they have, by topic
 
   private:
     ros2::EntityId last_ = 0;

@@ -65,8 +65,8 @@ class FaceProcess {
     int list() {
         const auto model = member_.fetch_model(member_.new_address(Role::kClient));
         if (!model) return member_.exit_code();
-        const ros2::RobotTopics shown(model);
-        const ros2::RobotCommands obeyed(model, face_.stamped);
+        const ros2::RobotTopics shown(model, face_.topics);
+        const ros2::RobotCommands obeyed(model, face_.topics);
         for (const ros2::Topic& topic : shown.topics()) say("{}  {}\n", topic.name, topic.type->name);
         for (const ros2::CommandTopic& topic : obeyed.topics())
             say("{}  {}  (drives it)\n", topic.name, topic.type->name);

@@ -54,8 +54,21 @@ void add_face_options(CLI::App& command, ros2::FaceOptions& face, const std::str
                     "simulated time between two looks at the world, s (default: that of the fastest sensor, "
                     "at most 0.02)")
         ->check(positive_number());
-    command.add_flag(prefix + "stamped", face.stamped,
-                     "velocity commands are geometry_msgs/TwistStamped, not Twist");
+    ros2::TopicOptions& topics = face.topics;
+    command.add_flag(prefix + "stamped", topics.stamped,
+                     "velocity commands are geometry_msgs/TwistStamped before a node publishes Twist");
+    command.add_flag(
+        prefix + "plain-frames", topics.plain_frames,
+        "frames without the robot's name, tf and tf_static in its namespace, its base in odom, as "
+        "Nav2 wants them");
+    command
+        .add_option(prefix + "root", topics.root,
+                    "this robot has no namespace, and plain frames: /cmd_vel, /scan, /tf")
+        ->type_name("ROBOT");
+    command.add_flag(prefix + "ground-truth", topics.ground_truth,
+                     "where each robot is, as /ROBOT/ground_truth (nav_msgs/Odometry)");
+    command.add_flag(prefix + "fleet", topics.fleet,
+                     "all robots in one message: /fleet/states, /fleet/scans, /fleet/cmd_vel ...");
     command
         .add_option(prefix + "services", face.services.simulation.prefix,
                     "what stands in front of the names of simulation_interfaces, e.g. /gzserver (default: "
@@ -87,7 +100,12 @@ void add_ros2_options(CLI::App& command, Ros2Options& o, const std::string& pref
 
 void add_face_arguments(std::vector<std::string>& words, const ros2::FaceOptions& face) {
     if (face.period_s > 0) words.insert(words.end(), {"--period", fmt::format("{}", face.period_s)});
-    if (face.stamped) words.emplace_back("--stamped");
+    const ros2::TopicOptions& topics = face.topics;
+    if (topics.stamped) words.emplace_back("--stamped");
+    if (topics.plain_frames) words.emplace_back("--plain-frames");
+    if (!topics.root.empty()) words.insert(words.end(), {"--root", topics.root});
+    if (topics.ground_truth) words.emplace_back("--ground-truth");
+    if (topics.fleet) words.emplace_back("--fleet");
     if (!face.services.simulation.prefix.empty())
         words.insert(words.end(), {"--services", face.services.simulation.prefix});
 }

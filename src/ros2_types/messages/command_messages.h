@@ -110,6 +110,20 @@ struct MultiArrayLayout {
     }
 };
 
+/// std_msgs/msg/Float32MultiArray
+struct Float32MultiArray {
+    static constexpr const char* kName = "std_msgs/msg/Float32MultiArray";
+    MultiArrayLayout layout;  ///< of the data
+    std::vector<float> data;  ///< the values
+
+    /// Calls visit(name, value) for each field, always in the same order.
+    template <class Visitor, class Self>
+    static void fields(Visitor&& visit, Self& m) {
+        visit("layout", m.layout);
+        visit("data", m.data);
+    }
+};
+
 /// std_msgs/msg/Float64MultiArray
 struct Float64MultiArray {
     static constexpr const char* kName = "std_msgs/msg/Float64MultiArray";

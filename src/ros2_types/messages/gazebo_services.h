@@ -1,25 +1,9 @@
 // Services of ros_gz_interfaces, by which scripts for Gazebo control a world.
 #pragma once
 
-#include "ros2_types/messages/standard_messages.h"
+#include "ros2_types/messages/gazebo_messages.h"
 
 namespace roboss::ros2::ros_gz_interfaces {
-
-/// ros_gz_interfaces/msg/Entity
-struct GazeboEntity {
-    static constexpr const char* kName = "ros_gz_interfaces/msg/Entity";
-    std::uint64_t id = 0;   ///< 0: it is given by its name
-    std::string name;       ///< of the robot
-    std::uint8_t type = 0;  ///< 2: a model
-
-    /// Calls visit(name, value) for each field, always in the same order.
-    template <class Visitor, class Self>
-    static void fields(Visitor&& visit, Self& m) {
-        visit("id", m.id);
-        visit("name", m.name);
-        visit("type", m.type);
-    }
-};
 
 /// ros_gz_interfaces/msg/EntityFactory
 struct EntityFactory {

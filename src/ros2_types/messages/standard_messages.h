@@ -137,6 +137,20 @@ struct PoseWithCovariance {
     }
 };
 
+/// geometry_msgs/msg/PoseArray
+struct PoseArray {
+    static constexpr const char* kName = "geometry_msgs/msg/PoseArray";
+    Header header;                   ///< time and frame
+    std::vector<PoseMessage> poses;  ///< m
+
+    /// Calls visit(name, value) for each field, always in the same order.
+    template <class Visitor, class Self>
+    static void fields(Visitor&& visit, Self& m) {
+        visit("header", m.header);
+        visit("poses", m.poses);
+    }
+};
+
 /// geometry_msgs/msg/PoseStamped
 struct PoseStamped {
     static constexpr const char* kName = "geometry_msgs/msg/PoseStamped";
