@@ -139,6 +139,7 @@ void Face::observe(Bus& bus) {
     if (is_new) {
         if (client_->tick() < shown_ || shown_ < 0) {  // the beginning, or the run went back
             topics_->forget();
+            if (lockstep_ && shown_ >= 0) lockstep_->forget();
             publish_latched();
         }
         shown_ = client_->tick(), welcomes_ = client_->welcomes();

@@ -36,7 +36,7 @@ Result<Lockstep> Lockstep::of(const std::vector<std::string>& patterns, const Ro
 }
 
 void Lockstep::begin(std::int64_t stamp_ns) {
-    stamp_ns_ = stamp_ns;
+    stamp_ns_ = stamp_ns, is_collecting_ = true;
     open_ = gates_.size();
     for (Gate& gate : gates_) {
         gate.message.reset();
@@ -44,9 +44,14 @@ void Lockstep::begin(std::int64_t stamp_ns) {
     }
 }
 
+void Lockstep::forget() {
+    is_collecting_ = false;
+    for (Gate& gate : gates_) gate.message.reset(), gate.next.clear();
+}
+
 /// Gives a gate that is open the first message that waits for this period.
 void Lockstep::fill(Gate& gate) {
-    while (!gate.message && !gate.next.empty()) {
+    while (is_collecting_ && !gate.message && !gate.next.empty()) {
         Waiting& first = gate.next.front();
         if (first.stamp_ns && *first.stamp_ns > stamp_ns_) return;
         if (first.stamp_ns && *first.stamp_ns < stamp_ns_)
@@ -62,7 +67,7 @@ bool Lockstep::take(std::size_t topic, std::string bytes, std::optional<std::int
     Gate& gate = gates_[places_[topic]];
     if (gate.next.size() >= kWaitingMost) return ++dropped_, true;
     if (gate.message && stamp_ns == stamp_ns_) return ++dropped_, true;  // the same answer once more
-    if (gate.message) ++early_;
+    if (gate.message || !is_collecting_) ++early_;
     gate.next.push_back({std::move(bytes), stamp_ns});
     fill(gate);
     return true;
@@ -82,6 +87,7 @@ std::vector<std::size_t> Lockstep::missing() const {
 }
 
 std::vector<Lockstep::Accepted> Lockstep::accepted() {
+    is_collecting_ = false;
     std::vector<Accepted> all;
     for (Gate& gate : gates_) all.push_back({gate.topic, std::exchange(gate.message, {}).value_or("")});
     return all;

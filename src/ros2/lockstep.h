@@ -23,6 +23,8 @@ class Lockstep {
 
     /// A period begins whose sensors bear this stamp, ns. Messages that came too early count for it.
     void begin(std::int64_t stamp_ns);
+    /// The run went back: messages that arrived do not count.
+    void forget();
     /// A message of a topic arrived. `stamp_ns`: its own stamp, if it has one that is not 0. False: nobody
     /// waits for this topic, and the message must not have an effect.
     bool take(std::size_t topic, std::string bytes, std::optional<std::int64_t> stamp_ns);
@@ -41,7 +43,7 @@ class Lockstep {
     /// The messages of the period, by topic. Only once it is complete.
     std::vector<Accepted> accepted();
 
-    /// Messages so far that came more than once in a period, and wait for the next ones.
+    /// Messages so far that came more than once in a period, or between two, and wait for the next ones.
     std::uint64_t early() const { return early_; }
     /// Messages so far that answered to a period that has its message, or for which there was no room.
     std::uint64_t dropped() const { return dropped_; }
@@ -62,6 +64,7 @@ class Lockstep {
     std::vector<std::size_t> places_;  // of topics in gates_; kNowhere: nobody waits for it
     static constexpr std::size_t kNowhere = static_cast<std::size_t>(-1);
     std::int64_t stamp_ns_ = 0;
+    bool is_collecting_ = false;  // from begin() to accepted(); else messages wait for the next period
     std::size_t open_ = 0;
     std::uint64_t early_ = 0, dropped_ = 0;
 };

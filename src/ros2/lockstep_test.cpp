@@ -56,6 +56,27 @@ TEST_F(LockstepTest, AMessageTooManyCountsForTheNextPeriod) {
     EXPECT_EQ(accepted(), (std::vector<std::string>{"a1", "b1"}));
 }
 
+TEST_F(LockstepTest, AMessageBetweenTwoPeriodsIsNotLost) {
+    lockstep.take(first, "a0", {});  // before the first one
+    lockstep.begin(0);
+    EXPECT_EQ(lockstep.missing(), std::vector{second});
+    lockstep.take(second, "b0", {});
+    EXPECT_EQ(accepted(), (std::vector<std::string>{"a0", "b0"}));
+    lockstep.take(first, "a1", {}), lockstep.take(second, "b1", {});
+    lockstep.begin(1);
+    ASSERT_TRUE(lockstep.is_complete());
+    EXPECT_EQ(accepted(), (std::vector<std::string>{"a1", "b1"}));
+    EXPECT_EQ(lockstep.early(), 3u);
+}
+
+TEST_F(LockstepTest, ARunThatGoesBackForgetsTheAnswersToItsFuture) {
+    lockstep.begin(5);
+    lockstep.take(first, "old", {}), lockstep.take(first, "older", {});
+    lockstep.forget();
+    lockstep.begin(1);
+    EXPECT_EQ(lockstep.missing(), (std::vector{first, second}));
+}
+
 TEST_F(LockstepTest, AStampNamesThePeriod) {
     lockstep.begin(2'000);
     lockstep.take(first, "late", 1'000), lockstep.take(first, "now", 2'000);
