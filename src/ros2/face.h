@@ -27,7 +27,7 @@ namespace roboss::ros2 {
 struct FaceOptions {
     std::string name = "ros2";    ///< of the Client
     double period_s = 0;          ///< between two looks at the world; 0: that of the fastest sensor
-    bool stamped = false;         ///< velocities are TwistStamped
+    TopicOptions topics;          ///< names and types
     FaceServiceOptions services;  ///< of the world's node
     /// The world waits for a message of each of these topics in each period; empty: it does not wait.
     std::vector<std::string> lockstep;
@@ -72,6 +72,7 @@ class Face {
     void close(const Endpoints& endpoints);
 
     void take_messages(Bus& bus);
+    bool take_command(std::size_t topic, const std::string& cdr);
     void obey(std::size_t topic, std::string_view cdr);
     void observe(Bus& bus);
     bool is_ready(std::int64_t now_ms);
@@ -99,7 +100,7 @@ class Face {
     std::vector<EntityId> robot_nodes_;      // the same by RobotId
     Endpoints publishers_, subscriptions_;
     std::vector<EntityId> publisher_of_;                    // of topics_->topics(); 0: it could not be made
-    std::map<EntityId, std::size_t> command_of_;            // in commands_->topics()
+    std::multimap<EntityId, std::size_t> command_of_;       // in commands_->topics()
     std::set<std::pair<std::size_t, std::size_t>> broken_;  // robot and sensor that could not measure
 
     // In lockstep: the subscribers of topics_->topics() when the observation was published; before that, when

@@ -12,10 +12,12 @@
 #include <set>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "core/result.h"
 #include "model/order.h"
+#include "ros2/topic_options.h"
 #include "ros2_types/message_type.h"
 
 namespace roboss::ros2 {
@@ -46,8 +48,8 @@ struct CommandTopic {
 /// See the top of the file.
 class RobotCommands {
   public:
-    /// Collects the topics of all robots. `stamped`: velocities are TwistStamped.
-    RobotCommands(std::shared_ptr<const Model> model, bool stamped);
+    /// Collects the topics of all robots.
+    RobotCommands(std::shared_ptr<const Model> model, const TopicOptions& options);
 
     /// All topics, by robot.
     const std::vector<CommandTopic>& topics() const { return topics_; }
@@ -64,6 +66,9 @@ class RobotCommands {
     std::vector<CommandTopic> topics_;
     std::vector<std::vector<JointId>> driven_;  // driven_joints() by TypeId
 };
+
+/// The messages of a command. `stamped`: velocities are TwistStamped.
+std::pair<CommandTopic::Kind, const MessageType*> message_of(const Channel& channel, bool stamped);
 
 /// Joints of one axis that motors move, in the order of their setpoints.
 std::vector<JointId> driven_joints(const RobotType& type);

@@ -17,7 +17,7 @@ class Commands : public testing::Test {
   protected:
     void show(ModelSpec model, bool stamped = false) {
         model_ = test::compiled(test::on_plane(std::move(model)));
-        commands_.emplace(model_, stamped);
+        commands_.emplace(model_, TopicOptions{stamped, {}});
     }
     std::size_t find(const std::string& name) const {
         for (std::size_t t = 0; t < commands_->topics().size(); ++t)

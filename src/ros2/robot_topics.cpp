@@ -9,6 +9,7 @@
 #include "client/held_samples.h"
 #include "physics/dynamics/kinematics.h"
 #include "physics/dynamics/motor_effort.h"
+#include "ros2/bridged_topics.h"
 #include "ros2/robot_description.h"
 #include "ros2/robot_names.h"
 #include "ros2/sensor_messages.h"
@@ -98,14 +99,48 @@ RobotTopics::~RobotTopics() = default;
 RobotTopics::RobotTopics(RobotTopics&&) noexcept = default;
 RobotTopics& RobotTopics::operator=(RobotTopics&&) noexcept = default;
 
-RobotTopics::RobotTopics(std::shared_ptr<const Model> model) : model_(std::move(model)) {
+RobotTopics::RobotTopics(std::shared_ptr<const Model> model, const TopicOptions& options)
+    : model_(std::move(model)) {
     topics_ = {{"/clock", &type_of<Clock>(), false, {}},
                {"/tf", &type_of<TFMessage>(), false, {}},
                {"/tf_static", &type_of<TFMessage>(), true, {}}};
     Taken taken;
     const std::vector<std::string> names = robot_names(*model_);
     for (std::size_t r = 0; r < names.size(); ++r) add_robot(RobotId(r), names[r], taken);
+    if (options.bridge) use(*options.bridge);
     wanted_.assign(topics_.size(), true);
+}
+
+/// Gives topics the names and types of a bridge's file.
+void RobotTopics::use(const Bridge& bridge) {
+    std::map<std::pair<RobotId, std::size_t>, std::size_t> firsts;  // topics of sensors
+    std::map<std::string, RobotId> frames;
+    for (std::size_t r = 0; r < robots_.size(); ++r)
+        for (const std::string& frame : robots_[r].frames) frames.emplace(frame, RobotId(r));
+    for (const Source& source : sources_) {
+        firsts[{source.robot, source.sensor}] = source.first;
+        for (const std::string& frame : {source.frame, source.optical_frame, source.odometry_frame})
+            frames.emplace(frame, source.robot);
+    }
+    const auto usual = [&](const GazeboTopic& topic) -> std::optional<std::size_t> {
+        switch (topic.kind) {
+            case GazeboTopic::Kind::kClock:
+                return kClock;
+            case GazeboTopic::Kind::kFrames:
+                return kTf;
+            case GazeboTopic::Kind::kFixedFrames:
+                return kTfStatic;
+            case GazeboTopic::Kind::kJointStates:
+                return robots_[topic.robot.index()].joint_states;
+            case GazeboTopic::Kind::kReading:
+                return firsts.at({topic.robot, topic.number}) + topic.message;
+            case GazeboTopic::Kind::kCommand:
+                break;
+        }
+        return {};
+    };
+    bridged_ =
+        std::make_shared<BridgedTopics>(match_bridge(bridge, *model_), topics_, usual, std::move(frames));
 }
 
 void RobotTopics::add_robot(RobotId robot, const std::string& name, Taken& taken) {
@@ -164,6 +199,7 @@ void RobotTopics::add_sensors(RobotId robot, const std::string& name, Taken& tak
 void RobotTopics::select(std::vector<bool> wanted) {
     wanted_ = std::move(wanted);
     wanted_.resize(topics_.size(), false);
+    if (bridged_) wanted_ = bridged_->needed(std::move(wanted_));
 }
 
 std::vector<RobotTopics::Message> RobotTopics::latched(Tick tick) const {
@@ -175,6 +211,7 @@ std::vector<RobotTopics::Message> RobotTopics::latched(Tick tick) const {
             out.push_back(
                 {part.description, to_cdr(String{urdf_of(*model_, RobotId(r), part.name, part.frames)})});
     }
+    if (bridged_) bridged_->finish(out);
     return out;
 }
 
@@ -274,6 +311,7 @@ void RobotTopics::add_readings(const Source& source, Tick tick, const Sample& sa
         if (wanted_[topic]) out.push_back({topic, to_cdr(message)});
         ++topic;
     });
+    if (bridged_) bridged_->add_forms(place, source.robot, source.sensor, sample, out);
 }
 
 Result<std::vector<RobotTopics::Message>> RobotTopics::messages(Tick tick, std::span<const RobotState> states,
@@ -290,6 +328,7 @@ Result<std::vector<RobotTopics::Message>> RobotTopics::messages(Tick tick, std::
         if (!sample) return sample.error();
         if (sample.value()) add_readings(source, tick, *sample.value(), out);
     }
+    if (bridged_) bridged_->finish(out);
     before_ = std::exchange(last_, tick);
     return out;
 }

@@ -16,10 +16,13 @@
 #include <vector>
 
 #include "model/robot_state.h"
+#include "ros2/topic_options.h"
 #include "ros2_types/transport.h"
 #include "sensor_kinds/sensor_spec.h"
 
 namespace roboss::ros2 {
+
+class BridgedTopics;
 
 /// A topic.
 struct Topic {
@@ -44,7 +47,7 @@ class RobotTopics {
     };
 
     /// Collects the topics of all robots of a world.
-    explicit RobotTopics(std::shared_ptr<const Model> model);
+    explicit RobotTopics(std::shared_ptr<const Model> model, const TopicOptions& options = {});
     ~RobotTopics();
     RobotTopics(RobotTopics&&) noexcept;
     RobotTopics& operator=(RobotTopics&&) noexcept;
@@ -74,6 +77,7 @@ class RobotTopics {
 
     void add_robot(RobotId robot, const std::string& name, Taken& taken);
     void add_sensors(RobotId robot, const std::string& name, Taken& taken);
+    void use(const Bridge& bridge);
     std::string fixed_frames(Tick tick) const;
     std::string moving_frames(Tick tick, std::span<const RobotState> states) const;
     std::string joint_states(Tick tick, RobotId robot, const RobotState& state) const;
@@ -86,7 +90,8 @@ class RobotTopics {
     std::vector<std::string> left_out_;
     std::vector<Source> sources_;
     std::vector<RobotPart> robots_;
-    Tick last_ = -1, before_ = -1;  // ticks of the last two calls
+    std::shared_ptr<BridgedTopics> bridged_;  // null: there is no bridge's file
+    Tick last_ = -1, before_ = -1;            // ticks of the last two calls
 };
 
 }  // namespace roboss::ros2

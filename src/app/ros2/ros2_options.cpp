@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cstdlib>
+#include <memory>
 #include <sstream>
 
 #include "app/commands/numbers.h"
@@ -54,8 +55,20 @@ void add_face_options(CLI::App& command, ros2::FaceOptions& face, const std::str
                     "simulated time between two looks at the world, s (default: that of the fastest sensor, "
                     "at most 0.02)")
         ->check(positive_number());
-    command.add_flag(prefix + "stamped", face.stamped,
+    command.add_flag(prefix + "stamped", face.topics.stamped,
                      "velocity commands are geometry_msgs/TwistStamped, not Twist");
+    command
+        .add_option_function<std::string>(
+            prefix + "bridge",
+            [&face, prefix](const std::string& file) {
+                Result<ros2::Bridge> bridge = ros2::read_bridge(file);
+                if (!bridge)
+                    throw CLI::ValidationError(prefix + "bridge",
+                                               bridge.error().message + "; " + bridge.error().remedy);
+                face.topics.bridge = std::make_shared<const ros2::Bridge>(std::move(bridge).value());
+            },
+            "YAML file of ros_gz_bridge: the topics of Gazebo that it names have its names and types")
+        ->type_name("FILE");
     command
         .add_option(prefix + "services", face.services.simulation.prefix,
                     "what stands in front of the names of simulation_interfaces, e.g. /gzserver (default: "
@@ -87,7 +100,8 @@ void add_ros2_options(CLI::App& command, Ros2Options& o, const std::string& pref
 
 void add_face_arguments(std::vector<std::string>& words, const ros2::FaceOptions& face) {
     if (face.period_s > 0) words.insert(words.end(), {"--period", fmt::format("{}", face.period_s)});
-    if (face.stamped) words.emplace_back("--stamped");
+    if (face.topics.stamped) words.emplace_back("--stamped");
+    if (face.topics.bridge) words.insert(words.end(), {"--bridge", face.topics.bridge->file});
     if (!face.services.simulation.prefix.empty())
         words.insert(words.end(), {"--services", face.services.simulation.prefix});
 }

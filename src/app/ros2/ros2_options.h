@@ -19,7 +19,7 @@ struct Ros2Options {
     std::vector<std::string> peers;
 };
 
-/// Declares --period, --stamped and --services with this prefix: the form of topics and services.
+/// Declares --period, --stamped, --bridge and --services with this prefix: the form of topics and services.
 void add_face_options(CLI::App& command, ros2::FaceOptions& face, const std::string& prefix);
 /// Adds them to the arguments of a process.
 void add_face_arguments(std::vector<std::string>& words, const ros2::FaceOptions& face);
