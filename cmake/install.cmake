@@ -16,6 +16,7 @@ set(ROBOSS_EXTERNALS
   "^Boost::" "find_dependency(Boost)"
   "^fmt::" "find_dependency(fmt)"
   "^spdlog::" "find_dependency(spdlog)"
+  "^yaml-cpp" "find_dependency(yaml-cpp)"
   "^nlohmann_json::" "find_dependency(nlohmann_json)"
   "^(dl|m|rt|atomic)$|^$" "")
 

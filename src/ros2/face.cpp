@@ -6,6 +6,7 @@
 #include <exception>
 #include <utility>
 
+#include "ros2/bridge.h"
 #include "ros2/robot_names.h"
 #include "ros2/stamps.h"
 #include "ros2_types/cdr.h"
@@ -76,6 +77,8 @@ Result<> Face::show(std::shared_ptr<const Model> model, const Address& self) {
                      "`roboss check WORLD` prints the names of robots", "no-robot"};
     topics_ = std::make_unique<RobotTopics>(model_, options_.topics);
     commands_ = std::make_unique<RobotCommands>(model_, options_.topics);
+    if (options_.topics.bridge)
+        for (const std::string& line : match_bridge(*options_.topics.bridge, *model_).notices) notice(line);
     lockstep_.reset();
     if (times.synchronous) {
         Result<Lockstep> lockstep = Lockstep::of(options_.lockstep, *commands_);
@@ -109,21 +112,21 @@ void Face::advance(Bus& bus) {
 void Face::take_messages(Bus& bus) {
     bool ordered = false;
     for (Incoming& message : transport_.take(0)) {
-        const auto command = command_of_.find(message.entity);
-        if (command == command_of_.end()) {
-            (void)services_.take(message);  // else it is of a topic that was closed
-            continue;
-        }
-        const CommandTopic& topic = commands_->topics()[command->second];
-        if (!lockstep_) {
-            obey(command->second, message.bytes);
-            ordered = true;
-        } else if (const auto stamp = stamp_ns(topic.kind, message.bytes);
-                   !lockstep_->take(command->second, std::move(message.bytes), stamp)) {
-            notice(topic.name + ": its messages have no effect, for the world is in lockstep without it");
-        }
+        const auto [begin, end] = command_of_.equal_range(message.entity);
+        if (begin == end) (void)services_.take(message);  // else it is of a topic that was closed
+        for (auto command = begin; command != end; ++command)
+            ordered |= take_command(command->second, message.bytes);
     }
     if (ordered && client_->tick() >= 0) client_->send(bus, client_->tick());
+}
+
+/// True if it was obeyed; in lockstep it waits for its period.
+bool Face::take_command(std::size_t topic, const std::string& cdr) {
+    if (!lockstep_) return obey(topic, cdr), true;
+    const CommandTopic& command = commands_->topics()[topic];
+    if (!lockstep_->take(topic, cdr, stamp_ns(command.kind, cdr)))
+        notice(command.name + ": its messages have no effect, for the world is in lockstep without it");
+    return false;
 }
 
 void Face::obey(std::size_t topic, std::string_view cdr) {

@@ -72,6 +72,7 @@ class Face {
     void close(const Endpoints& endpoints);
 
     void take_messages(Bus& bus);
+    bool take_command(std::size_t topic, const std::string& cdr);
     void obey(std::size_t topic, std::string_view cdr);
     void follow_types(std::int64_t now_ms);
     void report_lockstep(std::int64_t now_ms);
@@ -101,7 +102,7 @@ class Face {
     std::vector<EntityId> robot_nodes_;      // the same by RobotId
     Endpoints publishers_, subscriptions_;
     std::vector<EntityId> publisher_of_;                    // of topics_->topics(); 0: it could not be made
-    std::map<EntityId, std::size_t> command_of_;            // in commands_->topics()
+    std::multimap<EntityId, std::size_t> command_of_;       // in commands_->topics()
     std::set<std::pair<std::size_t, std::size_t>> broken_;  // robot and sensor that could not measure
 
     // In lockstep: the subscribers of topics_->topics() when the observation was published; before that, when

@@ -82,7 +82,7 @@ void Face::open_commands() {
             if (!made) notice(made.error().text());
             endpoint = {made ? made.value() : 0, node, topic.type->name};
         }
-        if (endpoint.id != 0) command_of_[endpoint.id] = c;
+        if (endpoint.id != 0) command_of_.emplace(endpoint.id, c);
     }
 }
 

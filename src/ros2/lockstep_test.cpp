@@ -12,7 +12,7 @@ namespace {
 RobotCommands two_cars() {
     World world = test::on_plane(test::skid_car());
     test::place(world, test::skid_car(), "other");
-    return RobotCommands(test::compiled(world), false);
+    return RobotCommands(test::compiled(world), {});
 }
 
 std::size_t topic_named(const RobotCommands& commands, const std::string& name) {

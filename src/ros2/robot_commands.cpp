@@ -7,6 +7,7 @@
 #include <set>
 #include <utility>
 
+#include "ros2/bridged_commands.h"
 #include "ros2/fleet_topics.h"
 #include "ros2/robot_names.h"
 #include "ros2_types/cdr.h"
@@ -33,6 +34,8 @@ bool is_switch(const ChannelValue& value) {
     return value.unit.empty() && std::ranges::find(kNames, value.name) != kNames.end();
 }
 
+}  // namespace
+
 std::pair<Kind, const MessageType*> message_of(const Channel& channel, bool stamped) {
     if (is_trajectory(channel)) return {Kind::kTrajectory, &type_of<JointTrajectory>()};
     if (channel.is_list) return {Kind::kNumbers, &type_of<Float64MultiArray>()};
@@ -45,6 +48,8 @@ std::pair<Kind, const MessageType*> message_of(const Channel& channel, bool stam
     if (is_switch(channel.values.front())) return {Kind::kSwitch, &type_of<Bool>()};
     return {Kind::kNumber, &type_of<Float64>()};
 }
+
+namespace {
 
 std::vector<double> values_of(const TwistMessage& twist) {
     return {twist.linear.x,  twist.linear.y,  twist.linear.z,
@@ -157,6 +162,7 @@ RobotCommands::RobotCommands(std::shared_ptr<const Model> model, const TopicOpti
     std::set<std::string> taken;
     for (std::size_t r = 0; r < names.size(); ++r)
         add_robot(RobotId(r), below(names[r], ""), options.stamped, taken);
+    if (options.bridge) name_commands(match_bridge(*options.bridge, *model_), *model_, topics_);
     if (options.fleet) add_fleet();
 }
 

@@ -12,6 +12,7 @@
 #include <set>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "core/result.h"
@@ -79,6 +80,9 @@ class RobotCommands {
     std::vector<std::vector<JointId>> driven_;  // driven_joints() by TypeId
     std::vector<RobotId> fleet_;                // rows of /fleet/cmd_vel
 };
+
+/// The messages of a command. `stamped`: velocities are TwistStamped.
+std::pair<CommandTopic::Kind, const MessageType*> message_of(const Channel& channel, bool stamped);
 
 /// Joints of one axis that motors move, in the order of their setpoints.
 std::vector<JointId> driven_joints(const RobotType& type);

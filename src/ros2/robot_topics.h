@@ -16,12 +16,15 @@
 #include <string>
 #include <vector>
 
+#include "model/model.h"
 #include "model/robot_state.h"
 #include "ros2/topic_options.h"
 #include "ros2_types/transport.h"
 #include "sensor_kinds/sensor_spec.h"
 
 namespace roboss::ros2 {
+
+class BridgedTopics;
 
 /// A topic.
 struct Topic {
@@ -72,13 +75,35 @@ class RobotTopics {
     void repeat() { last_ = before_; }
 
   private:
-    struct Source;
     struct Taken;
-    struct RobotPart;
+    static constexpr std::size_t kNone = static_cast<std::size_t>(-1);
+    /// A sensor with messages.
+    struct Source {
+        RobotId robot;
+        std::size_t sensor = 0;
+        std::size_t first = 0, count = 0;  // its topics
+        std::string frame, optical_frame, odometry_frame;
+        Transform X_WO;  // of an odometry: its frame in the world
+    };
+
+    /// The names of a robot.
+    struct RobotPart {
+        std::string name;                             // in ROS 2
+        std::string prefix;                           // of its frames
+        bool is_plain = false;                        // its frames have no prefix
+        std::vector<std::string> frames;              // by LinkId; the first is the base
+        std::vector<JointId> joints;                  // of one axis, that move
+        std::size_t joint_states = 0;                 // its topic; 0: none
+        std::size_t ground_truth = 0;                 // its topic; 0: none
+        std::size_t description = 0;                  // its topic
+        std::size_t tf = kTf, tf_static = kTfStatic;  // topics of its frames
+        std::size_t odometry = kNone;                 // its first odometry, in sources_
+    };
 
     std::size_t add_topic(const std::string& name, const MessageType& type, bool is_latched, RobotId robot);
     void add_robot(RobotId robot, const std::string& name, const TopicOptions& options, Taken& taken);
     void add_sensors(RobotId robot, Taken& taken);
+    void use(const Bridge& bridge);
     void add_fixed_frames(Tick tick, std::vector<Message>& out) const;
     Result<> add_moving_frames(Tick tick, std::span<const RobotState> states, const Measure& measure,
                                std::vector<Message>& out) const;
@@ -93,8 +118,9 @@ class RobotTopics {
     std::vector<std::string> left_out_;
     std::vector<Source> sources_;
     std::vector<RobotPart> robots_;
-    std::unique_ptr<FleetTopics> fleet_;  // null: there are none
-    Tick last_ = -1, before_ = -1;        // ticks of the last two calls
+    std::unique_ptr<FleetTopics> fleet_;      // null: there are none
+    std::shared_ptr<BridgedTopics> bridged_;  // null: there is no bridge's file
+    Tick last_ = -1, before_ = -1;            // ticks of the last two calls
 };
 
 }  // namespace roboss::ros2

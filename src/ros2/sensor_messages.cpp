@@ -1,14 +1,37 @@
 // See sensor_messages.h.
 #include "ros2/sensor_messages.h"
 
+#include <algorithm>
 #include <cmath>
 #include <map>
+#include <span>
 
 namespace roboss::ros2::sensor_messages {
 
 bool is_level_scan(const LaserSpec& laser) {
     const bool is_level = laser.row_angles() == std::vector<double>{0};
     return is_level && laser.angles.empty();
+}
+
+LaserScan scan(const LaserSpec& laser, const LaserReading& reading, const SensorPlace& place) {
+    LaserScan scan;
+    const double step = laser.samples > 1 ? (laser.max_angle - laser.min_angle) / (laser.samples - 1) : 0;
+    const double rate = place.info.spec.update_rate_hz;
+    scan.header = header(place, place.frame);
+    scan.angle_min = static_cast<float>(laser.min_angle),
+    scan.angle_max = static_cast<float>(laser.max_angle);
+    scan.angle_increment = static_cast<float>(step),
+    scan.scan_time = static_cast<float>(rate > 0 ? 1 / rate : 0);
+    scan.range_min = static_cast<float>(laser.range_min),
+    scan.range_max = static_cast<float>(laser.range_max);
+    const auto columns = static_cast<std::size_t>(laser.columns());
+    const auto add_row = [&](const std::vector<double>& from, std::vector<float>& to) {
+        const std::size_t begin = std::min(static_cast<std::size_t>(laser.rows() / 2) * columns, from.size());
+        const std::span row = std::span(from).subspan(begin, std::min(columns, from.size() - begin));
+        to.assign(row.begin(), row.end());
+    };
+    add_row(reading.ranges, scan.ranges), add_row(reading.intensities, scan.intensities);
+    return scan;
 }
 
 PointCloud2 cloud(const LaserSpec& laser, const LaserReading& reading, const SensorPlace& place) {

@@ -38,6 +38,8 @@ inline std::array<double, 9> diagonal(double x, double y, double z) {
     return {x * x, 0, 0, 0, y * y, 0, 0, 0, z * z};
 }
 
+/// The beams of a laser's row: the middle one, as ros_gz_bridge takes it. Only of lasers with even angles.
+LaserScan scan(const LaserSpec& laser, const LaserReading& reading, const SensorPlace& place);
 /// The points that the beams of a laser meet, in the sensor's frame.
 PointCloud2 cloud(const LaserSpec& laser, const LaserReading& reading, const SensorPlace& place);
 /// The calibration of a camera whose image has this size.
@@ -98,19 +100,7 @@ void publish(const LaserSpec& laser, const LaserReading& reading, const SensorPl
         out("points", sensor_messages::cloud(laser, reading, place));
         return;
     }
-    LaserScan scan;
-    const double step = laser.samples > 1 ? (laser.max_angle - laser.min_angle) / (laser.samples - 1) : 0;
-    const double rate = place.info.spec.update_rate_hz;
-    scan.header = sensor_messages::header(place, place.frame);
-    scan.angle_min = static_cast<float>(laser.min_angle),
-    scan.angle_max = static_cast<float>(laser.max_angle);
-    scan.angle_increment = static_cast<float>(step),
-    scan.scan_time = static_cast<float>(rate > 0 ? 1 / rate : 0);
-    scan.range_min = static_cast<float>(laser.range_min),
-    scan.range_max = static_cast<float>(laser.range_max);
-    scan.ranges.assign(reading.ranges.begin(), reading.ranges.end());
-    scan.intensities.assign(reading.intensities.begin(), reading.intensities.end());
-    out("scan", scan);
+    out("scan", sensor_messages::scan(laser, reading, place));
 }
 
 template <class Out>

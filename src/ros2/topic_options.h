@@ -1,7 +1,10 @@
-// TopicOptions: the form of a Face's topics: names, frames, and topics that not everybody wants.
+// TopicOptions: the form of a Face's topics: names, frames, types, and topics that not everybody wants.
 #pragma once
 
+#include <memory>
 #include <string>
+
+#include "ros2/bridge_file.h"
 
 namespace roboss::ros2 {
 
@@ -13,6 +16,7 @@ struct TopicOptions {
     bool ground_truth = false;  ///< where each robot is, as "ground_truth" in its namespace
     bool fleet = false;         ///< all robots in one message: "/fleet/states"
     bool stamped = false;       ///< velocities are TwistStamped, until a node sends Twist
+    std::shared_ptr<const Bridge> bridge{};  ///< gives topics other names and types; null: none does
 };
 
 }  // namespace roboss::ros2

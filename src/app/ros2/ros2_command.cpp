@@ -16,6 +16,7 @@ Examples:
   roboss run example:city --ros2                   a run and its nodes at once
   roboss ros2                                      beside a run on this computer (`roboss controller ...`)
   roboss ros2 --list                               the topics of that run
+  roboss ros2 --bridge bridge.yaml                 topics have the names of a file of ros_gz_bridge
   roboss ros2 --reach subnet --domain 7            for nodes on other computers
 
 Exit codes: 0 the run is over or Ctrl-C, 1 an option is wrong, no Controller was found, or Fast DDS is missing, 3 the run

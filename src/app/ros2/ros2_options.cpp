@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cstdlib>
+#include <memory>
 #include <sstream>
 
 #include "app/commands/numbers.h"
@@ -70,6 +71,18 @@ void add_face_options(CLI::App& command, ros2::FaceOptions& face, const std::str
     command.add_flag(prefix + "fleet", topics.fleet,
                      "all robots in one message: /fleet/states, /fleet/scans, /fleet/cmd_vel ...");
     command
+        .add_option_function<std::string>(
+            prefix + "bridge",
+            [&face, prefix](const std::string& file) {
+                Result<ros2::Bridge> bridge = ros2::read_bridge(file);
+                if (!bridge)
+                    throw CLI::ValidationError(prefix + "bridge",
+                                               bridge.error().message + "; " + bridge.error().remedy);
+                face.topics.bridge = std::make_shared<const ros2::Bridge>(std::move(bridge).value());
+            },
+            "YAML file of ros_gz_bridge: the topics of Gazebo that it names have its names and types")
+        ->type_name("FILE");
+    command
         .add_option(prefix + "services", face.services.simulation.prefix,
                     "what stands in front of the names of simulation_interfaces, e.g. /gzserver (default: "
                     "nothing)")
@@ -106,6 +119,7 @@ void add_face_arguments(std::vector<std::string>& words, const ros2::FaceOptions
     if (!topics.root.empty()) words.insert(words.end(), {"--root", topics.root});
     if (topics.ground_truth) words.emplace_back("--ground-truth");
     if (topics.fleet) words.emplace_back("--fleet");
+    if (topics.bridge) words.insert(words.end(), {"--bridge", topics.bridge->file});
     if (!face.services.simulation.prefix.empty())
         words.insert(words.end(), {"--services", face.services.simulation.prefix});
 }
