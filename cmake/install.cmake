@@ -17,7 +17,7 @@ set(ROBOSS_EXTERNALS
   "^fmt::" "find_dependency(fmt)"
   "^spdlog::" "find_dependency(spdlog)"
   "^nlohmann_json::" "find_dependency(nlohmann_json)"
-  "^(dl|m|rt|atomic)$|^$" "")
+  "^(dl|m|rt|atomic|zstd|lz4)$|^$" "")
 
 # Sets `result` to the find_dependency line of one linked library; ends the configuration where none is known.
 function(roboss_dependency_line layer library result)
