@@ -18,7 +18,7 @@ set(ROBOSS_EXTERNALS
   "^spdlog::" "find_dependency(spdlog)"
   "^yaml-cpp" "find_dependency(yaml-cpp)"
   "^nlohmann_json::" "find_dependency(nlohmann_json)"
-  "^(dl|m|rt|atomic)$|^$" "")
+  "^(dl|m|rt|atomic|zstd|lz4)$|^$" "")
 
 # Sets `result` to the find_dependency line of one linked library; ends the configuration where none is known.
 function(roboss_dependency_line layer library result)

@@ -95,19 +95,30 @@ Result<> Database::insert(const std::string& sql, const std::vector<Row>& rows) 
 }
 
 Result<std::vector<Row>> Database::select(const std::string& sql, const Row& parameters) const {
+    std::vector<Row> rows;
+    const Result<> done = each(sql, parameters, [&](Row row) -> Result<> {
+        rows.push_back(std::move(row));
+        return Ok{};
+    });
+    if (!done) return done.error();
+    return rows;
+}
+
+Result<> Database::each(const std::string& sql, const Row& parameters,
+                        const std::function<Result<>(Row)>& take) const {
     const Statement statement = prepare(db_.get(), sql);
     if (!statement) return error("cannot read it");
     for (std::size_t i = 0; i < parameters.size(); ++i)
         bind(statement.get(), static_cast<int>(i) + 1, parameters[i]);
-    std::vector<Row> rows;
     int rc = SQLITE_ROW;
     while ((rc = sqlite3_step(statement.get())) == SQLITE_ROW) {
-        Row& row = rows.emplace_back();
+        Row row;
         for (int i = 0; i < sqlite3_column_count(statement.get()); ++i)
             row.push_back(column(statement.get(), i));
+        if (const Result<> taken = take(std::move(row)); !taken) return taken.error();
     }
     if (rc != SQLITE_DONE) return error("cannot read it");
-    return rows;
+    return Ok{};
 }
 
 }  // namespace roboss

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <span>
 #include <string>
@@ -28,6 +29,9 @@ class Database {
     /// One statement for many rows of parameters.
     Result<> insert(const std::string& sql, const std::vector<Row>& rows);
     Result<std::vector<Row>> select(const std::string& sql, const Row& parameters = {}) const;
+    /// The same one by one, for more rows than memory should hold. An Error of `take` ends it.
+    Result<> each(const std::string& sql, const Row& parameters,
+                  const std::function<Result<>(Row)>& take) const;
 
   private:
     struct Close {

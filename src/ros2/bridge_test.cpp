@@ -213,7 +213,8 @@ TEST_F(BridgeTest, AVelocityMayBeStampedAndDriveSeveralRobots) {
         robots.push_back(commands_->topics()[t].robot.index());
         const auto orders = commands_->orders(t, to_cdr(TwistStamped{{}, {{1, 0, 0}, {0, 0, 2}}}));
         ASSERT_TRUE(orders) << orders.error().text();
-        EXPECT_EQ(std::get<Command>(orders.value().at(0).action).values, (std::vector<double>{1, 0, 0, 0, 0, 2}));
+        EXPECT_EQ(std::get<Command>(orders.value().at(0).action).values,
+                  (std::vector<double>{1, 0, 0, 0, 0, 2}));
     }
     EXPECT_EQ(robots, (std::vector<std::size_t>{0, 1}));
 }

@@ -50,7 +50,7 @@ def parser() -> Parser:
     result.add_argument("--from", type=float, dest="start", metavar="S", help="time of the first sample (default: the first)")
     result.add_argument("--until", type=float, metavar="S", help="time of the last sample (default: the end of the journal)")
     result.add_argument("--branch", type=int, metavar="N", help="of a journal (default: the youngest)")
-    result.add_argument("--orders", metavar="FILE", help="orders for the robots of a world, as of `roboss run`")
+    result.add_argument("--orders", metavar="FILE", help="orders for the robots of a world, a file or a bag, as of `roboss run`")
     result.add_argument("--client", action="append", default=[], metavar="LIB", help="a control program, as of `roboss run`")
     add_common(result)
     return result

@@ -16,9 +16,11 @@
 #include "app/processes/interrupt.h"
 #include "app/processes/threads.h"
 #include "app/run/run_outputs.h"
+#include "app/worlds/bag_orders.h"
 #include "app/worlds/examples.h"
 #include "app/worlds/orders_file.h"
 #include "app/worlds/world_census.h"
+#include "bags/bag.h"
 #include "client/plugin.h"
 #include "client/triggers/triggers.h"
 #include "core/float_env.h"
@@ -161,7 +163,7 @@ bool Run::prepare() {
     if (model_ && o_.on_ground) model_ = stood_on_ground(*model_, {world->file, 0}, diagnostics);
     if (model_ && o_.from.empty()) report_overlaps(*model_, &*world, diagnostics);
     Diagnostics order_findings;
-    if (model_ && !o_.orders.empty()) orders_ = load_orders(o_.orders, *model_, order_findings);
+    if (model_ && !o_.orders.empty()) read_orders(order_findings);
     print(diagnostics, o_.world);
     if (!model_ || refused()) {
         say(stderr, "roboss: {} is refused for the errors above{}\n", o_.world,
@@ -184,6 +186,16 @@ bool Run::prepare() {
     }
     const bool reads_orders = model_ == world_model_;
     return create() && (!reads_orders || submit(orders_, start_)) && open_files();
+}
+
+void Run::read_orders(Diagnostics& findings) {
+    if (!bags::is_bag(o_.orders)) {
+        orders_ = load_orders(o_.orders, *model_, findings);
+        return;
+    }
+    BagOrders bag = load_bag_orders(o_.orders, model_, findings);
+    orders_ = std::move(bag.orders);
+    notices_.push_back(bag.summary + " [bag]");
 }
 
 bool Run::prepare_replay() {

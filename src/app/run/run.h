@@ -46,6 +46,7 @@ class Run {
 
     // run.cpp: the beginning and the end
     bool prepare();
+    void read_orders(Diagnostics& findings);  // an orders file or a bag
     bool prepare_replay();
     CompileOptions compile_options() const;
     bool create();

@@ -19,6 +19,7 @@ const char* const kRunOptionsFooter = R"(Examples:
   roboss run example:city                                    `roboss examples` lists more
   roboss run worlds/city.sdf --client build/release/lib/roboss_city_driver.so --duration 60
   roboss run world.sdf --orders orders.jsonl --trace trace.csv --trace-every 0.1
+  roboss run world.sdf --orders bag.mcap --until 60           the commands that a bag of ROS 2 has for its robots
   roboss run world.sdf --duration 30 --save half.roboss      and later
   roboss run world.sdf --from half.roboss --duration 30      same final hash as one run of 60 s
 
@@ -262,7 +263,10 @@ void add_common_options(CLI::App& command, RunOptions& o) {
     command.add_flag("--merge-islands", o.merge_islands,
                      "put all robots into one island (slower; the result is the same)");
     command.add_option("--client", o.clients, "control program: a shared library (may be repeated)");
-    command.add_option("--orders", o.orders, "read orders from this file, one JSON object per line");
+    command.add_option(
+        "--orders", o.orders,
+        "read orders from this file, one JSON object per line; or the commands of a bag of ROS 2: "
+        "an .mcap or .db3 file, or a folder (docs/ros2.md)");
     command.add_option(
         "--seed", o.seed,
         "seed of sensor noise and control programs (default: the seed in --from or the journal, else 0)");
