@@ -203,8 +203,8 @@ TEST(RobotTopics, PlainFramesStandWhereTheOdometrySeesThem) {
     auto latched = by_topic(topics, topics.latched(0));
     const std::string urdf = from_cdr<String>(latched["/cart_1/robot_description"]).value().data;
     EXPECT_NE(urdf.find(R"(<link name="wheel">)"), std::string::npos);
-    for (const TransformStamped& frame :
-         from_cdr<TFMessage>(latched["/cart_1/tf_static"]).value().transforms) {
+    const TFMessage fixed = from_cdr<TFMessage>(latched["/cart_1/tf_static"]).value();
+    for (const TransformStamped& frame : fixed.transforms) {
         EXPECT_NE(frame.header.frame_id, "world") << "a localization says where odom is";
         EXPECT_EQ(frame.child_frame_id.find("cart_1"), std::string::npos);
     }
@@ -219,7 +219,8 @@ TEST(RobotTopics, TheRobotAtTheRootHasNoNamespace) {
     auto found = by_topic(topics, all.value());
     EXPECT_TRUE(found.contains("/scan") && found.contains("/joint_states") && found.contains("/cart_1/scan"));
     std::vector<std::string> children;
-    for (const TransformStamped& frame : from_cdr<TFMessage>(found["/tf"]).value().transforms)
+    const TFMessage moving = from_cdr<TFMessage>(found["/tf"]).value();
+    for (const TransformStamped& frame : moving.transforms)
         children.push_back(frame.header.frame_id + ">" + frame.child_frame_id);
     EXPECT_EQ(children, (std::vector<std::string>{"world>cart_1/cart", "cart_1/cart>cart_1/wheel",
                                                   "odom>cart", "cart>wheel"}));
