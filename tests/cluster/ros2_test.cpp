@@ -107,6 +107,7 @@ TEST_F(RunWithNodes, InLockstepTheHashIsThatOfTheMessages) {
     std::set<std::uint64_t> hashes;
     for (const int delay : {0, 1, 7}) {
         face.reset();
+        transport.published.clear();  // a clock of the run before would be answered in this one
         start(options, 1 + static_cast<std::size_t>(delay) % 3);
         int turn = 0, answers = 0, heard = 0;
         run(500, [&] {
@@ -118,7 +119,7 @@ TEST_F(RunWithNodes, InLockstepTheHashIsThatOfTheMessages) {
             transport.send(first, ros2::TwistMessage{{0.5, 0, 0}, {0, 0, turn_rate}});
             transport.send(second, ros2::TwistMessage{{0.5, 0, 0}, {0, 0, turn_rate}});
         });
-        EXPECT_GE(answers, 50);
+        EXPECT_GE(answers, 49) << "one in 10 ticks; the run ends before it needs the last";
         hashes.insert(simulation->hash());
         EXPECT_TRUE(face->take_notices().empty());
     }
