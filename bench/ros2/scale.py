@@ -2,8 +2,9 @@
 """Fleets of robots with a node that drives them all and reads their scans, beside the same runs without ROS 2.
 
 Usage: scale.py BIN JSON [--robots N ...] [--seconds S]      BIN: the folder of roboss and roboss-fleet-peer
-Each robot has cmd_vel, odom, joint_states and a scan of 360 beams at 10 Hz. Rows: real-time factor of the run with
---speed max, CPU of the run and of the face as shares of a core, what arrived at the node.
+Each robot has cmd_vel, odom, joint_states and a scan of 360 beams at 10 Hz, and drives in circles in all rows: without
+ROS 2 by a file of orders. Rows: real-time factor, CPU of the run and of the face as shares of a core, what arrived at the
+node. The network is that of this computer: `unshare -n` with loopback and multicast keeps it apart.
 """
 import argparse
 import json
@@ -37,15 +38,15 @@ def cpu_s(pid):
     return (int(fields[11]) + int(fields[12])) / TICKS
 
 
-def measure(program, world, robots, seconds, words):
+def measure(program, world, robots, seconds, words, is_read):
     """Factor of real time and CPU shares of the run and its children over `seconds`, with what the peer says."""
     log = world.with_suffix(".json")
     run = subprocess.Popen([program / "roboss", "run", world, "--path", ROOT / "worlds/models", "--headless", "--json", log,
                             "--duration", "100000", *words], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-    time.sleep(2 + robots / 200)  # until it runs, and its face is there
+    time.sleep(2 + robots / 100)  # until it runs, and its face is there
     children = Path(f"/proc/{run.pid}/task/{run.pid}/children").read_text().split()
     peer = None
-    if "--ros2" in words:
+    if is_read:
         peer = subprocess.Popen([program / "roboss-fleet-peer", str(robots), str(seconds)], stdout=subprocess.PIPE, text=True)
     before = [cpu_s(pid) for pid in (run.pid, *children)]
     time.sleep(seconds)
@@ -73,9 +74,14 @@ def main():
     with tempfile.TemporaryDirectory() as folder:
         for robots in o.robots:
             world = world_of(robots, Path(folder))
-            for name, words in (("without ROS 2", ["--speed", "max"]), ("with a node", ["--speed", "max", "--ros2"]),
-                                ("with a node, in real time", ["--speed", "1", "--ros2"])):
-                row = {"run": name, **measure(o.bin, world, robots, o.seconds, words)}
+            orders = Path(folder) / "orders.jsonl"
+            orders.write_text('{"t": 0, "robot": "turtle_*", "command": {"name": "cmd_vel", "linear_x": 0.1, "angular_z": 0.2}}\n')
+            driven, ros2, fast = ["--orders", orders], ["--ros2", "--ros2-period", "0.1"], ["--speed", "max"]
+            for name, words, is_read in (("without ROS 2", [*fast, *driven], False),
+                                         ("idle face, in real time", ["--speed", "1", *driven, *ros2], False),
+                                         ("with a node", [*fast, *ros2], True),
+                                         ("with a node, in real time", ["--speed", "1", *ros2], True)):
+                row = {"run": name, **measure(o.bin, world, robots, o.seconds, words, is_read)}
                 print(json.dumps(row), flush=True)
                 rows.append(row)
     o.json.write_text(json.dumps(rows, indent=1))
