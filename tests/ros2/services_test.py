@@ -22,6 +22,8 @@ START = -5.2  # m, x of turtle_0
 
 
 class SimulationInterfaces(WithRun):
+    maxDiff = None
+
     def test_each_service_answers_right_and_wrong_requests(self):
         run = self.start()
         seen = self.report_of("service_caller.py", "simulation", seconds=90)
