@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "ros2/entity_services.h"
+#include "ros2/run_services.h"
 #include "ros2_types/messages/gazebo_services.h"
 
 namespace roboss::ros2 {
@@ -20,33 +21,38 @@ void ask_all(const SimulationContext& c, std::vector<ControlAction> requests, co
     if (requests.empty()) return then(true);
     const ControlAction first = requests.front();
     requests.erase(requests.begin());
+    const auto go_on = [c, requests = std::move(requests), then](bool done) {
+        if (!done) return then(false);
+        ask_all(c, requests, then);
+    };
+    if (std::holds_alternative<ResetRun>(first))
+        return reset_run(c, [go_on](const si::Result& result) { go_on(result.result == si::Result::kOk); });
     c.waits.ask(
-        first,
-        [c, requests = std::move(requests), then](const ControlOutcome& outcome) {
-            if (!is_done(outcome)) return then(false);
-            ask_all(c, requests, then);
-        },
-        RunWaits::kLong_ms);
+        first, [go_on](const ControlOutcome& outcome) { go_on(is_done(outcome)); }, RunWaits::kLong_ms);
 }
 
 /// The requests to the run that a request to the world stands for, in Gazebo's order: reset, then steps or
-/// pause. Empty: parts of it cannot be done.
+/// pause. A run that is not to play then is paused first, so that it is at its beginning after a reset.
+/// Empty: parts of it cannot be done.
 std::vector<ControlAction> requests_of(const gz::WorldControl& control, const SimulationContext& c) {
     std::vector<ControlAction> requests;
     const gz::WorldReset& reset = control.reset;
     if (control.seed != 0 || reset.time_only || reset.model_only) return {};
-    if (reset.all) requests.push_back(ResetRun{});
     const double until_s = control.run_to_sim_time.sec + 1e-9 * control.run_to_sim_time.nanosec;
-    const auto until = static_cast<Tick>(std::llround(until_s / c.run.model().dt_s));
+    const Tick now = reset.all ? 0 : c.run.tick();
+    const Tick ahead = static_cast<Tick>(std::llround(until_s / c.run.model().dt_s)) - now;
     const std::uint32_t steps = control.multi_step > 0 ? control.multi_step : control.step ? 1 : 0;
+    const bool plays = steps == 0 && ahead <= 0 && !control.pause;
+    if (!plays && reset.all) requests.push_back(PauseRun{});
+    if (reset.all) requests.push_back(ResetRun{});
     if (steps > 0)
         requests.push_back(StepRun{static_cast<Tick>(steps)});
-    else if (until > c.run.tick())
-        requests.push_back(StepRun{until - c.run.tick()});
-    else if (control.pause)
-        requests.push_back(PauseRun{});
-    else
+    else if (ahead > 0)
+        requests.push_back(StepRun{ahead});
+    else if (plays)
         requests.push_back(ResumeRun{});
+    else
+        requests.push_back(PauseRun{});
     return requests;
 }
 

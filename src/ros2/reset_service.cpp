@@ -51,13 +51,10 @@ void add_reset_service(const SimulationContext& c, RunMemory& memory, Spawner& s
             const bool whole =
                 scope == kAllBits || (scope == (Request::kTime | Request::kState) && spawned.empty());
             if (whole)
-                return c.waits.ask(
-                    ResetRun{},
-                    [reply, &memory](const ControlOutcome& outcome) {
-                        memory.paused_at_start = false;
-                        reply({is_done(outcome) ? fine() : failure_of(outcome)});
-                    },
-                    RunWaits::kLong_ms);
+                return reset_run(c, [reply, &memory](const si::Result& result) {
+                    memory.paused_at_start = false;
+                    reply({result});
+                });
             if ((scope & Request::kTime) != 0 || scope == 0)
                 return reply({result_of(si::Result::kFeatureUnsupported,
                                         "the time is reset with states and spawned entities together only")});

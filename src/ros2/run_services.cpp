@@ -166,17 +166,33 @@ void step_run(const SimulationContext& c, std::uint64_t ticks,
     });
 }
 
+void reset_run(const SimulationContext& c, const std::function<void(const si::Result&)>& then) {
+    const auto is_seen = [&run = c.run, before = c.run.era()] {
+        return run.era() != before && run.tick() >= 0;
+    };
+    c.waits.ask(
+        ResetRun{},
+        [c, is_seen, then](const ControlOutcome& outcome) {
+            const auto* refused = std::get_if<ControlRefused>(&outcome);
+            const bool has_gone_back = refused != nullptr && refused->code == "changed-world";
+            if (!is_done(outcome) && !has_gone_back) return then(failure_of(outcome));
+            c.waits.until(is_seen, [then](bool seen) {
+                then(seen ? fine()
+                          : result_of(si::Result::kOperationFailed,
+                                      "the beginning of the run was not seen in time"));
+            });
+        },
+        RunWaits::kLong_ms);
+}
+
 void stop_run(const SimulationContext& c, RunMemory& memory,
               const std::function<void(const si::Result&)>& then) {
     c.waits.ask(PauseRun{}, [c, &memory, then](const ControlOutcome& paused) {
         if (!is_done(paused)) return then(failure_of(paused));
-        c.waits.ask(
-            ResetRun{},
-            [&memory, then](const ControlOutcome& reset) {
-                memory.paused_at_start = false;
-                then(is_done(reset) ? fine() : failure_of(reset));
-            },
-            RunWaits::kLong_ms);
+        reset_run(c, [&memory, then](const si::Result& result) {
+            memory.paused_at_start = false;
+            then(result);
+        });
     });
 }
 

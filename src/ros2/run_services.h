@@ -33,6 +33,10 @@ void add_reset_service(const SimulationContext& c, RunMemory& memory, Spawner& s
 /// GetNamedPoses, GetNamedPoseBounds, GetAvailableWorlds, GetCurrentWorld, LoadWorld, UnloadWorld.
 void add_world_services(const SimulationContext& c, RunMemory& memory);
 
+/// Returns the run to its beginning, and calls `then` when it is seen there.
+void reset_run(const SimulationContext& c,
+               const std::function<void(const simulation_interfaces::Result&)>& then);
+
 /// Pauses the run and returns it to its beginning.
 void stop_run(const SimulationContext& c, RunMemory& memory,
               const std::function<void(const simulation_interfaces::Result&)>& then);

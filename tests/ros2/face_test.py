@@ -1,72 +1,28 @@
-"""roboss run --ros2 beside nodes of rclpy and Cyclone DDS, on a network of their own that has only this host.
-
-Usage: face_test.py ROBOSS WORLD CLIENTS NAME [unittest's words]    NAME: kilted, jazzy or cyclone; CLIENTS: the folder that
-tools/ros2_clients.sh made. Exit code 77: it cannot be tried here, and why.
-"""
+"""roboss run --ros2 beside nodes of rclpy and Cyclone DDS: with_run.py says how it is started."""
 import json
 import os
 import signal
 import socket
+import statistics
 import subprocess
-import sys
-import tempfile
 import time
-import unittest
-from pathlib import Path
 
-from harness import BAD_DATAGRAM, CYCLONE_OF_HOST, Process, enter_own_network, python_of
+from harness import BAD_DATAGRAM
+from with_run import NAME, ROBOSS, WithRun, main
 
-HERE = Path(__file__).resolve().parent
-ROBOSS, WORLD, CLIENTS, NAME = Path(sys.argv[1]), Path(sys.argv[2]), Path(sys.argv[3]), sys.argv[4]
 SCAN = "RIHS01_64c191398013af96509d518dac71d5164f9382553fce5c1f8cca5be7924bd828"
 ROBOTS = 20
 
 
-class WithRun(unittest.TestCase):
-    def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = Path(folder.name)
-
-    def start(self, *words, name="run"):
-        """A run with a face, whose words on standard error are in a file."""
-        log = open(self.folder / f"{name}.log", "w")
-        self.addCleanup(log.close)
-        run = subprocess.Popen([ROBOSS, "run", WORLD, "--ros2", "--headless", "--json", self.folder / f"{name}.json", *words],
-                               stdout=subprocess.DEVNULL, stderr=log)
-        self.addCleanup(lambda: run.poll() is None and (run.kill(), run.wait()))
-        return run
-
-    def end(self, run, name="run", seconds=120):
-        """The summary of a run that ends by itself, and what it said."""
-        self.assertEqual(run.wait(timeout=seconds), 0, (self.folder / f"{name}.log").read_text())
-        return json.loads((self.folder / f"{name}.json").read_text()), (self.folder / f"{name}.log").read_text()
-
-    def node(self, program, *words):
-        python, environment = python_of(CLIENTS / NAME)
-        node = Process([python, "-B", HERE / "nodes" / program, *words], {**environment, "CYCLONEDDS_URI": CYCLONE_OF_HOST})
-        self.addCleanup(lambda: node.process.poll() is None and (node.process.kill(), node.process.wait()))
-        return node
-
+class Face(WithRun):
     def wanderers(self, count=5):
         each = ROBOTS // count
         return [self.node("wanderer.py", f"wanderer_{n}", *(f"turtle_{n * each + k}" for k in range(each)))
                 for n in range(count)]
 
-    def faces_of(self, run):
-        """Ids of the processes that the run started."""
-        return [int(pid) for pid in Path(f"/proc/{run.pid}/task/{run.pid}/children").read_text().split()]
-
-    def visit(self, robot):
-        seen = self.node("visitor.py", robot).wait_for("", 60)
-        self.assertIsNotNone(seen, "the visitor said nothing")
-        return json.loads(seen)
-
-
-class Face(WithRun):
     def test_a_node_lists_senses_and_drives(self):
         self.start()
-        seen = self.visit("turtle_3")
+        seen = self.report_of("visitor.py", "turtle_3")
         self.assertEqual(seen["missing"], [])
         self.assertEqual([n for n in seen["nodes"] if n != "/visitor"],
                          sorted(["/roboss", *(f"/turtle_{n}/robot" for n in range(ROBOTS))]))
@@ -76,8 +32,10 @@ class Face(WithRun):
         self.assertEqual((seen["ranges"], seen["frame"]), (360, "turtle_3/base_link/lidar"))
         self.assertGreater(seen["moved"], 0.1, "m")
         self.assertIn('<robot name="turtle_3"', seen["description"])
+        # The face looks every 20 ms; on a busy machine it misses some looks, and a scan comes with a later one.
         steps = seen["scan_steps"]
-        self.assertTrue(all(abs(step - 0.1 * round(step / 0.1)) < 1e-3 and step > 0 for step in steps), steps)
+        self.assertTrue(all(abs(step - 0.02 * round(step / 0.02)) < 1e-3 and step > 0 for step in steps), steps)
+        self.assertAlmostEqual(statistics.median(steps), 0.1, 3, steps)
         self.assertIs(seen["use_sim_time"], True)
 
     def test_lockstep_gives_the_same_hash_and_the_replay_needs_no_nodes(self):
@@ -98,7 +56,7 @@ class Face(WithRun):
 
     def test_a_face_that_dies_is_started_again_and_the_world_goes_on(self):
         run = self.start("--duration", "30")
-        first = self.visit("turtle_1")
+        first = self.report_of("visitor.py", "turtle_1")
         self.assertEqual(first["missing"], [])
         before = self.faces_of(run)
         for port in range(7400, 7420):  # the ports of its domain: on Fast DDS 2.9.1 this ends it
@@ -109,7 +67,7 @@ class Face(WithRun):
             os.kill(face, signal.SIGKILL)
         time.sleep(2)
         self.assertNotEqual(self.faces_of(run), before)
-        self.assertEqual(self.visit("turtle_2")["missing"], [])
+        self.assertEqual(self.report_of("visitor.py", "turtle_2")["missing"], [])
         self.assertIsNone(run.poll())
         _, log = self.end(run)
         self.assertIn("it is started again [restarted]", log)
@@ -129,13 +87,5 @@ class Services(WithRun):
         self.assertIsNone(run.poll())
 
 
-def main():
-    enter_own_network(CLIENTS / NAME)
-    tests = unittest.defaultTestLoader.loadTestsFromTestCase(Services if NAME == "cyclone" else Face)
-    if len(sys.argv) > 5:
-        tests = unittest.TestSuite(test for test in tests if any(word in test.id() for word in sys.argv[5:]))
-    sys.exit(not unittest.TextTestRunner(verbosity=2).run(tests).wasSuccessful())
-
-
 if __name__ == "__main__":
-    main()
+    main(Services if NAME == "cyclone" else Face)

@@ -41,6 +41,17 @@ TEST(GazeboServices, ScriptsSpawnMoveStepAndRemove) {
     control.world_control.pause = true, control.world_control.reset.all = true;
     EXPECT_TRUE(run.call<gz::ControlWorld>("/world/hall/control", control).success);
     EXPECT_EQ(run.tick(), 0);
+    EXPECT_EQ(run.control.tick(), 0) << "the services see it before the reply";
+
+    control = {};
+    EXPECT_TRUE(run.call<gz::ControlWorld>("/world/hall/control", control).success) << "it plays";
+    ASSERT_TRUE(run.until([&] { return run.tick() > 100; }));
+    control.world_control.pause = true, control.world_control.reset.all = true;
+    EXPECT_TRUE(run.call<gz::ControlWorld>("/world/hall/control", control).success);
+    EXPECT_EQ(run.tick(), 0) << "it is paused at its beginning";
+    control.world_control.run_to_sim_time = {0, 30'000'000};
+    EXPECT_TRUE(run.call<gz::ControlWorld>("/world/hall/control", control).success);
+    ASSERT_TRUE(run.until([&] { return run.paused() && run.tick() == 30; })) << "counted from the beginning";
 }
 
 }  // namespace

@@ -280,6 +280,7 @@ TEST(SimulationServices, ResetsHaveScopes) {
     EXPECT_EQ(entities(run), (std::vector<std::string>{"ball", "arm"}));
     EXPECT_EQ(reset(Scope::kDefault), Code::kOk);
     EXPECT_EQ(run.tick(), 0);
+    EXPECT_EQ(run.control.tick(), 0) << "the services see it before the reply";
     EXPECT_EQ(state_of(run), State::kStopped);
 }
 
