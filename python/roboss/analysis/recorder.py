@@ -153,8 +153,8 @@ def masses(world: World, robots: Iterable[str]) -> dict[str, float]:
     """Masses of robots with a free base, kg: the first number of their mass matrix."""
     found = {}
     for robot in sorted(set(robots) & set(world.robots)):
-        model = RobotModel(world, robot, cut_loops=True)
-        if model.free_base:
+        if world._facts_of(world.robots.index(robot)).free_base:
+            model = RobotModel(world, robot, cut_loops=True)
             found[robot] = float(model.mass_matrix(model.start)[0, 0])
     return found
 
