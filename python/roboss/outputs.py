@@ -10,7 +10,7 @@ from .names import file_path
 
 _Path = Union[str, os.PathLike]
 #: Kinds of files by the endings of their names.
-KINDS = {".parquet": "parquet", ".mcap": "mcap", ".png": "png", ".svg": "svg", ".pdf": "pdf", ".html": "html"}
+KINDS = {".parquet": "parquet", ".mcap": "mcap", ".rrd": "rrd", ".png": "png", ".svg": "svg", ".pdf": "pdf", ".html": "html"}
 
 
 def check_output(path: _Path, kind: Optional[str] = None, reads: Iterable[object] = ()) -> None:

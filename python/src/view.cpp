@@ -9,8 +9,10 @@
 
 #include "bindings.h"
 #include "looks.h"
+#include "roboss/core/hash.h"
 #include "roboss/math/array_rows.h"
 #include "roboss/scene/placed_copies.h"
+#include "roboss/scene/scene_file.h"
 #include "simulation.h"
 
 namespace nb = nanobind;
@@ -42,13 +44,28 @@ LooksOf with_copies(const LooksOf& looks, const LooksOf& addition, const Model& 
     return all;
 }
 
+/// The scene of a Model (docs/viewer-protocol.md): its JSON, the bytes of its meshes, and those of its images
+/// by their hash.
+nb::tuple scene_of(const LooksOf& looks, const Model& model) {
+    std::vector<const World*> worlds;
+    for (const auto& world : looks.worlds) worlds.push_back(world.get());
+    const SceneFile file = scene_file(make_scene(model, worlds), model, 0);
+    nb::list meshes;
+    for (const auto& mesh : file.meshes) meshes.append(nb::bytes(mesh.data(), mesh.size()));
+    nb::dict textures;
+    for (const TextureFile& texture : file.textures)
+        textures[nb::cast(to_hex(texture.hash))] = nb::bytes(texture.bytes.data(), texture.bytes.size());
+    return nb::make_tuple(file.json, meshes, textures);
+}
+
 }  // namespace
 
 void bind_view(nb::module_& module) {
     nb::class_<LooksOf>(module, "Looks")
         .def(nb::init<>())
         .def("with_copies", &with_copies, nb::arg("addition"), nb::arg("added"), nb::arg("names"),
-             nb::arg("poses"));
+             nb::arg("poses"))
+        .def("scene", &scene_of, nb::arg("model"));
     nb::class_<LocalView>(module, "View")
         .def_prop_ro("url", [](const LocalView& view) { return view.url(); })
         .def_prop_ro("fingerprint", [](const LocalView& view) { return view.fingerprint(); })

@@ -45,6 +45,11 @@ def test_a_recording_has_the_arrays_of_the_simulation():
     assert recording.facts["mass_kg"]["car_0"] == pytest.approx(6.2)
 
 
+def test_robots_that_cannot_move_are_recorded():
+    recording = analysis.record(roboss.example("conveyor.sdf"), "*.pose", until=0)
+    assert "cross.pose" in recording and "cross" not in recording.facts["mass_kg"]
+
+
 def test_efforts_are_those_of_the_motors():
     sim = roboss.Simulation(ARM)
     sim.robots("arm").set_joint_targets([1.5, 2, 3, 0.1, 0.2, 0.3], mode="effort")

@@ -34,6 +34,7 @@ constexpr std::array kKinds{
     Kind{"html", "a report", "<!doctype html", ""},
     Kind{"parquet", "a Parquet file", "PAR1", ""},
     Kind{"mcap", "an MCAP file", "\x89MCAP", ""},
+    Kind{"rrd", "a Rerun recording", "RRF", ""},
     Kind{"world", "a world or robot file", "<", ""},
     Kind{"saved state", "a saved state", "SQLite format 3", "CREATE TABLE checkpoints"},
     Kind{"figures", "figures of roboss-fuzz", "[", "\"replay\""},

@@ -10,7 +10,7 @@ from typing import Any, Sequence
 from ..errors import ArgumentError
 from .command import Parser, Progress, check_file
 from .recorder import Recorded, check_order, is_journal, journal_of_run, opened, record_file, ways
-from .recording import SUFFIXES, existing
+from .recording import WRITTEN, check_package, existing
 from .ros2_recorder import record_ros2, topics_of
 from .variables import Variables
 
@@ -28,21 +28,23 @@ Examples:
   roboss record worlds/crossroads.sdf 'car_*.speed' car_3.pose --until 10 -o run.parquet
   roboss record worlds/crossroads.sdf '*.pose' --until 10 --orders worlds/crossroads.jsonl -o run.mcap
   roboss record run.journal 'arm.*.effort' --every 0.001 -o efforts.parquet        afterwards, from a journal
+  roboss record worlds/cameras.sdf 'rover.**' --until 5 --every 0.1 -o run.rrd     robots, images and scans for Rerun
   roboss plot run.parquet car_3.speed
   roboss record worlds/crossroads.sdf --ros2 --until 10 -o run.mcap         topics of ROS 2, for Foxglove, Lichtblick, rosbags
   roboss record run.journal --ros2 '/car_3/**' '/tf*' -o bag                a rosbag2: ros2 bag play bag
   roboss record run.journal --ros2 --list                                   the topics that there are
 
 A world is run here; with --orders or --client it is first run by `roboss run` into a journal. A journal is replayed
-to the last bit, so its recording is that of the run. MCAP opens in Foxglove, Parquet in pandas, Polars, DuckDB, CSV in every spreadsheet."""
+to the last bit, so its recording is that of the run. MCAP opens in Foxglove, .rrd in Rerun, Parquet in pandas, Polars, DuckDB,
+CSV in every spreadsheet."""
 
 
 def parser() -> Parser:
     result = Parser("roboss record", examples=_EXAMPLES,
-                    description="Records variables of a world or of a journal over time, as Parquet, MCAP or CSV.")
+                    description="Records variables of a world or of a journal over time, as Parquet, MCAP, CSV or Rerun.")
     result.add_argument("source", metavar="SOURCE", help="a world (SDFormat, URDF, MJCF) or a journal")
     result.add_argument("variables", nargs="*", metavar="VARIABLE", help="names or patterns (default: *.pose)")
-    result.add_argument("-o", "--output", metavar="FILE", help="ends in .parquet, .mcap or .csv (numbers only)")
+    result.add_argument("-o", "--output", metavar="FILE", help="ends in .parquet, .mcap, .csv (numbers only) or .rrd (Rerun, with the robots in 3-D)")
     result.add_argument("--ros2", action="store_true", help="record the robots' topics of ROS 2, with its messages: VARIABLE is a "
                         "topic or a pattern (default: all), FILE ends in .mcap or is a new folder, a rosbag2 (docs/ros2.md)")
     result.add_argument("--list", action="store_true", help="show the variables that there are, and record nothing")
@@ -104,11 +106,12 @@ def run(options: Any) -> Any:
 
 def _check_name(options: Any) -> None:
     """Refuses a name that says no format."""
-    suffixes = ("", ".mcap") if options.ros2 else SUFFIXES
+    suffixes = ("", ".mcap") if options.ros2 else WRITTEN
     if options.output is None or Path(options.output).suffix not in suffixes:
         raise ArgumentError("no file to write" if options.output is None else f"a file named '{options.output}'",
                             "give -o FILE.mcap, or -o FOLDER for a rosbag2" if options.ros2 else
-                            "give -o FILE.parquet, FILE.mcap or FILE.csv", "unknown-format")
+                            "give -o FILE.parquet, FILE.mcap, FILE.csv or FILE.rrd", "unknown-format")
+    check_package(Path(options.output).suffix)
 
 
 def _first_of(names: Sequence[str]) -> str:

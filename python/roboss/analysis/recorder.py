@@ -19,7 +19,7 @@ from ..outputs import check_output
 from ..run import Run
 from ..simulation import Simulation
 from ..world import World, load
-from .recording import SUFFIXES, Recording, existing, read, write, writer_of
+from .recording import WRITTEN, Recording, existing, read, write, writer_of
 from .variables import ChangingVariables, Variables
 
 Source = Union[str, os.PathLike, World, Simulation, Journal]
@@ -51,7 +51,7 @@ def record(source: Source, patterns: Union[str, Iterable[str], None] = None, *, 
     >>> recording.values.shape                      # 0, 0.01 ... 0.1 s; 16 cars
     (11, 16)
     """
-    if not isinstance(source, (World, Simulation, Journal)) and Path(source).suffix in SUFFIXES:
+    if not isinstance(source, (World, Simulation, Journal)) and Path(source).suffix in WRITTEN:
         return _part(read(source), patterns, start, until)
     run, last, name = opened(source, start, until, branch)
     variables = variables_of(run, last, patterns)
@@ -90,7 +90,8 @@ class Recorded:
 def record_file(source: Source, path: Union[str, os.PathLike], patterns: Union[str, Iterable[str], None] = None, *,
                 until: Optional[float] = None, every: float = 0.01, start: Optional[float] = None,
                 branch: Optional[int] = None, progress: Optional[Progress] = None, name: str = "") -> Recorded:
-    """Records variables of a run into a file (.parquet, .mcap or .csv) while it runs, so memory does not grow with its length.
+    """Records variables of a run into a file (.parquet, .mcap, .csv or .rrd) while it runs, so memory does not grow with its
+    length. A Rerun recording (.rrd) draws the whole world, too, whatever is chosen.
 
     Takes messages, too, except in a table (.csv): images, contact points, what radios heard (unless `every` is too long for
     them: `left_out`). After an error or Ctrl-C the file has all samples so far.
@@ -101,7 +102,7 @@ def record_file(source: Source, path: Union[str, os.PathLike], patterns: Union[s
 
     For instance `record_file("crossroads.sdf", "run.mcap", ["car_3.pose", "car_3.contact_points"], until=10)`.
     """
-    if not isinstance(source, (World, Simulation, Journal)) and Path(source).suffix in SUFFIXES:
+    if not isinstance(source, (World, Simulation, Journal)) and Path(source).suffix in WRITTEN:
         part = _part(read(source), patterns, start, until)
         write(part, path)
         ends = (float(part.time[0]), float(part.time[-1])) if len(part.time) else (0.0, 0.0)
@@ -112,7 +113,8 @@ def record_file(source: Source, path: Union[str, os.PathLike], patterns: Union[s
     variables = variables_of(run, last, patterns, messages=takes_messages, every=_ticks(run, every) * run.dt)
     names = [*dict.fromkeys(c.variable for c in variables.columns), *(m.name for m in variables.messages.variables)]
     done = Recorded(names, len(variables.columns), first=run.time, left_out=tuple(variables.left_out))
-    with writer_of(path, variables.columns, _facts(run, name or ending, variables), variables.messages.variables) as writer:
+    facts = _facts(run, name or ending, variables)
+    with writer_of(path, variables.columns, facts, variables.messages.variables, run) as writer:
         for sim in samples(run, last, every):
             writer.add(sim.time, variables.read(), variables.messages.read())
             done.samples, done.last = done.samples + 1, sim.time
@@ -153,8 +155,8 @@ def masses(world: World, robots: Iterable[str]) -> dict[str, float]:
     """Masses of robots with a free base, kg: the first number of their mass matrix."""
     found = {}
     for robot in sorted(set(robots) & set(world.robots)):
-        model = RobotModel(world, robot, cut_loops=True)
-        if model.free_base:
+        if world._facts_of(world.robots.index(robot)).free_base:
+            model = RobotModel(world, robot, cut_loops=True)
             found[robot] = float(model.mass_matrix(model.start)[0, 0])
     return found
 

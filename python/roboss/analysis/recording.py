@@ -6,7 +6,7 @@ import os
 import re
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Callable, Iterable, Mapping, Sequence, Union
+from typing import TYPE_CHECKING, Any, Callable, Iterable, Mapping, Optional, Sequence, Union
 
 import numpy as np
 
@@ -16,12 +16,16 @@ from ..outputs import check_output
 from ..robots import Floats
 
 if TYPE_CHECKING:
+    from ..run import Run
     from .csv_file import CsvWriter
     from .mcap_file import McapWriter
     from .messages import MessageVariable
     from .parquet_file import ParquetWriter
+    from .rerun_file import RerunWriter
 
 SUFFIXES = (".parquet", ".mcap", ".csv")  # that are written and read
+WRITTEN = (*SUFFIXES, ".rrd")             # that are written
+_RERUN = "pip install 'rerun-sdk>=0.41', or roboss with its extra: roboss[rerun]"
 #: Parts of poses and twists, with their units.
 POSE = (("x", "m"), ("y", "m"), ("z", "m"), ("qx", ""), ("qy", ""), ("qz", ""), ("qw", ""))
 TWIST = (("vx", "m/s"), ("vy", "m/s"), ("vz", "m/s"), ("wx", "rad/s"), ("wy", "rad/s"), ("wz", "rad/s"))
@@ -139,24 +143,37 @@ def _expression(pattern: str, separator: str = ".") -> Callable[[str], Any]:
 
 
 def write(recording: Recording, path: Union[str, os.PathLike]) -> None:
-    """Writes a file; its name says the format: .parquet, .mcap or .csv. Raises ArgumentError for another name."""
+    """Writes a file; its name says the format: .parquet, .mcap, .csv or .rrd. Raises ArgumentError for another name."""
     with writer_of(path, recording.columns, recording.facts) as writer:
         for time, values in zip(recording.time.tolist(), recording.values):
             writer.add(time, values)
 
 
 def writer_of(path: Union[str, os.PathLike], columns: Sequence[Column], facts: Mapping[str, Any],
-              messages: Sequence[MessageVariable] = ()) -> Union[ParquetWriter, McapWriter, CsvWriter]:
-    """A writer of the format that the name of the file says, which takes one sample after the other. A table (.csv) takes no
-    messages. Raises ArgumentError for another name, and for a file of another kind."""
+              messages: Sequence[MessageVariable] = (),
+              run: Optional[Run] = None) -> Union[ParquetWriter, McapWriter, CsvWriter, RerunWriter]:
+    """A writer of the format that the name of the file says, which takes one sample after the other.
+
+    Args:
+        messages: a table (.csv) takes none.
+        run: that a Rerun recording (.rrd) draws at each sample; None: it has only the numbers and messages.
+
+    Raises:
+        ArgumentError: the file has another name, or is there and of another kind.
+        RobossError: the package of the format is missing (code "no-package").
+    """
+    suffix = _suffix(path, WRITTEN)
+    check_package(suffix)
     check_output(path)
-    suffix = _suffix(path)
     if suffix == ".csv":
         from .csv_file import CsvWriter
         return CsvWriter(path, columns, facts)
     if suffix == ".parquet":
         from .parquet_file import ParquetWriter
         return ParquetWriter(path, columns, facts, messages)
+    if suffix == ".rrd":
+        from .rerun_file import RerunWriter
+        return RerunWriter(path, columns, facts, messages, run)
     from .mcap_file import McapWriter
     return McapWriter(path, columns, facts, messages)
 
@@ -171,7 +188,7 @@ def read(path: Union[str, os.PathLike]) -> Recording:
     existing(path)
     suffix = Path(path).suffix
     try:
-        if _suffix(path) == ".csv":
+        if _suffix(path, SUFFIXES) == ".csv":
             from .csv_file import read_csv
             return read_csv(path)
         if suffix == ".parquet":
@@ -196,8 +213,22 @@ def existing(path: Union[str, os.PathLike]) -> str:
     return name
 
 
-def _suffix(path: Union[str, os.PathLike]) -> str:
+def check_package(suffix: str) -> None:
+    """Refuses a format whose package is missing. Raises RobossError (code "no-package")."""
+    if suffix != ".rrd":
+        return
+    try:
+        from rerun import RecordingStream
+    except ImportError:
+        raise RobossError("the Python package 'rerun-sdk' is missing, which writes .rrd", _RERUN, "no-package") from None
+    if not hasattr(RecordingStream, "set_log_time_enabled"):
+        raise RobossError("the Python package 'rerun-sdk' is too old to write .rrd", _RERUN, "no-package")
+
+
+def _suffix(path: Union[str, os.PathLike], known: Sequence[str]) -> str:
     suffix = Path(path).suffix
-    if suffix not in SUFFIXES:
-        raise ArgumentError(f"a recording named '{os.fspath(path)}'", "end the name in .parquet, .mcap or .csv", "unknown-format")
+    if suffix not in known:
+        remedy = "record the run as .parquet, .mcap or .csv: what is written for Rerun is not read here" if suffix in WRITTEN else \
+            f"end the name in {', '.join(known[:-1])} or {known[-1]}"
+        raise ArgumentError(f"a recording named '{os.fspath(path)}'", remedy, "unknown-format")
     return suffix
