@@ -1,5 +1,7 @@
 // A node that drives all robots of a fleet at 10 Hz and reads their scans, odometry and joint states. It
-// prints what arrived, as JSON. Usage: roboss-fleet-peer ROBOTS SECONDS
+// prints how many robots moved and after what time, waits for the last one at most PATIENCE seconds, then
+// counts for SECONDS and prints the rates of what arrived: two lines of JSON.
+// Usage: roboss-fleet-peer ROBOTS SECONDS PATIENCE
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
@@ -39,19 +41,21 @@ class FleetPeer {
         transport_.announce();
     }
 
-    void run(double duration_s) {
+    void await_all(double patience_s) {
         const Clock::time_point start = Clock::now();
-        Clock::time_point next = start;
-        while (seconds_since(start) < duration_s) {
-            if (Clock::now() >= next) drive(), next += std::chrono::milliseconds(100);
-            for (const ros2::Incoming& message : transport_.take(20)) take(message, seconds_since(start));
-        }
+        turn([&] { return !have_all_moved() && seconds_since(start) < patience_s; });
+        std::printf("{\"moved\": %zu, \"moved_after_s\": %.1f}\n",
+                    static_cast<std::size_t>(std::count(moved_.begin(), moved_.end(), true)),
+                    seconds_since(start));
+        std::fflush(stdout);
     }
 
-    void print(double duration_s) const {
-        std::size_t moved = 0;
-        for (const bool has_moved : moved_) moved += has_moved;
-        std::printf("{\"moved\": %zu, \"all_moved_after_s\": %.2f", moved, all_moved_s_);
+    void count(double duration_s) {
+        counts_.clear();
+        const Clock::time_point start = Clock::now();
+        const double first_s = newest_s_;
+        turn([&] { return seconds_since(start) < duration_s; });
+        std::printf("{\"real_time_factor\": %.2f", (newest_s_ - first_s) / duration_s);
         for (const auto& [kind, count] : counts_)
             std::printf(", \"%s_hz\": %.2f", kind.c_str(),
                         static_cast<double>(count) / duration_s / static_cast<double>(moved_.size()));
@@ -66,19 +70,35 @@ class FleetPeer {
         return id;
     }
 
+    bool have_all_moved() const { return std::count(moved_.begin(), moved_.end(), false) == 0; }
+
+    template <class Condition>
+    void turn(Condition condition) {
+        while (condition()) {
+            if (Clock::now() >= next_) {
+                drive();
+                next_ =
+                    std::max(next_, Clock::now() - std::chrono::seconds(1)) + std::chrono::milliseconds(100);
+            }
+            for (const ros2::Incoming& message : transport_.take(20)) take(message);
+        }
+    }
+
     void drive() {
         const std::string order = ros2::to_cdr(ros2::TwistMessage{{0.1, 0, 0}, {0, 0, 0.2}});
         for (const ros2::EntityId command : commands_) transport_.publish(command, order);
     }
 
-    void take(const ros2::Incoming& message, double now_s) {
+    void take(const ros2::Incoming& message) {
         ++counts_[kinds_.at(message.entity)];
         const auto robot = odometry_.find(message.entity);
-        if (robot == odometry_.end() || moved_[robot->second]) return;
+        if (robot == odometry_.end()) return;
         const Result<ros2::Odometry> odometry = ros2::from_cdr<ros2::Odometry>(message.bytes);
-        if (!odometry || odometry.value().twist.twist.linear.x < 0.02) return;
+        if (!odometry) return;
+        const ros2::Time& stamp = odometry.value().header.stamp;
+        newest_s_ = std::max(newest_s_, stamp.sec + 1e-9 * stamp.nanosec);
+        if (odometry.value().twist.twist.linear.x < 0.02) return;
         moved_[robot->second] = true;
-        if (std::count(moved_.begin(), moved_.end(), false) == 0) all_moved_s_ = now_s;
     }
 
     ros2::Transport& transport_;
@@ -88,18 +108,18 @@ class FleetPeer {
     std::map<ros2::EntityId, std::size_t> odometry_;  // robots
     std::map<std::string, std::size_t> counts_;
     std::vector<bool> moved_;
-    double all_moved_s_ = -1;
+    double newest_s_ = 0;                    // stamp, simulated
+    Clock::time_point next_ = Clock::now();  // order
 };
 
 }  // namespace
 
 int main(int argc, char** argv) {
-    if (argc != 3) return std::fprintf(stderr, "usage: roboss-fleet-peer ROBOTS SECONDS\n"), 2;
+    if (argc != 4) return std::fprintf(stderr, "usage: roboss-fleet-peer ROBOTS SECONDS PATIENCE\n"), 2;
     Result<std::unique_ptr<ros2::Transport>> transport = ros2::open_transport({});
     if (!transport) return std::fprintf(stderr, "%s\n", transport.error().text().c_str()), 1;
-    const double duration_s = std::atof(argv[2]);
     FleetPeer peer(*transport.value(), static_cast<std::size_t>(std::atol(argv[1])));
-    peer.run(duration_s);
-    peer.print(duration_s);
+    peer.await_all(std::atof(argv[3]));
+    peer.count(std::atof(argv[2]));
     return 0;
 }

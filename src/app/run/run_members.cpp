@@ -42,10 +42,11 @@ Result<std::unique_ptr<RunMembers>> RunMembers::gather(const RunOptions& options
     for (int i = 0; i < options.processes; ++i)
         if (Result<> started = members->start_process(); !started) return started.error();
     if (!members->network_.keys.empty() && options.shows_nodes())
-        return Error{"the process that speaks to nodes needs a key of its own, beside the Controller's --keys",
-                     "leave --ros2 and --foxglove out, and start `roboss ros2 --keys FOLDER` or `roboss "
-                     "foxglove --keys FOLDER`",
-                     "no-key"};
+        return Error{
+            "the process that speaks to nodes needs a key of its own, beside the Controller's --keys",
+            "leave --ros2 and --foxglove out, and start `roboss ros2 --keys FOLDER` or `roboss "
+            "foxglove --keys FOLDER`",
+            "no-key"};
     if (options.ros2.wanted)
         if (Result<> started = members->start_companion("the ROS 2 process", ros2_arguments(options.ros2));
             !started)
