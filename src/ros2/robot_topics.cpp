@@ -161,11 +161,16 @@ void RobotTopics::add_sensors(RobotId robot, Taken& taken) {
             if (info.spec.as<WheelOdometrySpec>())
                 source.X_WO = to_transform(model_->robots[robot.index()].X_WR);
             if (part.odometry == kNone) part.odometry = sources_.size();
+        } else if (const std::string given = ros_path(info.spec.ros_frame); part.is_link(given)) {
+            source.frame = given;  // as with Gazebo: the file has a link for it
         } else {
             source.frame =
                 taken.frame(info.spec, part.prefix, part.frames[info.link.index()] + "/" + sensor_name);
         }
-        if (is_camera) source.optical_frame = unique_name(source.frame + "_optical_frame", taken.frames);
+        if (is_camera)
+            source.optical_frame = part.is_link(source.frame)
+                                       ? source.frame
+                                       : unique_name(source.frame + "_optical_frame", taken.frames);
         sources_.push_back(std::move(source));
     }
 }

@@ -9,6 +9,7 @@
 // "tf_static" in its namespace, and its base stands where its odometry sees it.
 #pragma once
 
+#include <algorithm>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -98,6 +99,10 @@ class RobotTopics {
         std::size_t description = 0;                  // its topic
         std::size_t tf = kTf, tf_static = kTfStatic;  // topics of its frames
         std::size_t odometry = kNone;                 // its first odometry, in sources_
+
+        bool is_link(const std::string& frame) const {
+            return std::ranges::find(frames, frame) != frames.end();
+        }
     };
 
     std::size_t add_topic(const std::string& name, const MessageType& type, bool is_latched, RobotId robot);

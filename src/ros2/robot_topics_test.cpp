@@ -210,6 +210,22 @@ TEST(RobotTopics, PlainFramesStandWhereTheOdometrySeesThem) {
     }
 }
 
+TEST(RobotTopics, AFrameThatTheFileGivesMayBeThatOfALink) {
+    const std::shared_ptr<Model> model = carts();
+    model->types[0].sensors[0].spec.ros_frame = "wheel", model->types[0].sensors[3].spec.ros_frame = "mast";
+    TopicOptions options;
+    options.plain_frames = true;
+    RobotTopics topics(model, options);
+    const auto all = topics.messages(0, moving_states(), measured);
+    ASSERT_TRUE(all);
+    auto found = by_topic(topics, all.value());
+    EXPECT_EQ(from_cdr<LaserScan>(found["/cart_1/scan"]).value().header.frame_id, "wheel");
+    EXPECT_EQ(from_cdr<ImageMessage>(found["/cart_1/eye/image_raw"]).value().header.frame_id, "mast");
+    auto latched = by_topic(topics, topics.latched(0));
+    const TFMessage fixed = from_cdr<TFMessage>(latched["/cart_1/tf_static"]).value();
+    for (const TransformStamped& frame : fixed.transforms) EXPECT_NE(frame.child_frame_id, "wheel");
+}
+
 TEST(RobotTopics, TheRobotAtTheRootHasNoNamespace) {
     TopicOptions options;
     options.root = "inner::cart";

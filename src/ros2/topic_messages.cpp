@@ -42,6 +42,7 @@ void RobotTopics::add_fixed_frames(Tick tick, std::vector<Message>& out) const {
         const auto add = [&](const std::string& parent, const std::string& child, const Transform& X) {
             fixed[part.tf_static].transforms.push_back(transform(stamp, parent, child, X));
         };
+        if (part.is_link(source.frame)) continue;
         if (!source.frame.empty())
             add(part.frames[info.link.index()], source.frame, to_transform(info.spec.X_LS));
         if (const CameraOptics* optics = sensor_messages::optics_of(info.spec))
