@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "bags/db3_reader.h"
+#include "bags/decompress.h"
 #include "bags/intake.h"
 #include "bags/mcap_reader.h"
 
@@ -18,7 +19,6 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr std::string_view kZstdMagic = "\x28\xB5\x2F\xFD";
 constexpr std::string_view kRos1Magic = "#ROSBAG ";
 
 enum class Format { kMcap, kSqlite, kZstd, kRos1, kOther };

@@ -60,7 +60,8 @@ Result<> read_db3(Intake& intake) {
     std::string wanted;
     for (const auto& [id, topic] : topics.value())
         if (intake.is_wanted(topic)) wanted += (wanted.empty() ? "" : ",") + std::to_string(id);
-    // Of others only the time counts, so their bytes stay on the disk. A damaged length is not believed.
+    // Only the times of other topics count, so their bytes stay on the disk. A damaged length is not
+    // believed.
     return database.value().each(
         "SELECT id, topic_id, timestamp, CASE WHEN topic_id NOT IN (" + wanted +
             ") THEN x'' WHEN length(data) <= ? THEN data ELSE 0 END FROM messages ORDER BY id",

@@ -2,4 +2,5 @@
 # files for them, so they are linked by name.
 find_path(ROBOSS_ZSTD_HEADERS zstd.h REQUIRED)
 find_path(ROBOSS_LZ4_HEADERS lz4frame.h REQUIRED)
-target_link_libraries(roboss_bags PRIVATE zstd lz4)
+find_package(Boost REQUIRED)
+target_link_libraries(roboss_bags PRIVATE Boost::headers zstd lz4)

@@ -14,13 +14,6 @@ constexpr std::size_t kClientChannelsMost = 4'096;
 constexpr std::size_t kNameBytesMost = 512;
 constexpr std::size_t kEncapsulation = 4;  // bytes in front of each message in CDR
 
-/// "geometry_msgs/Twist" and "geometry_msgs/msg/Twist" are one.
-std::string full_name(const std::string& type) {
-    const std::size_t slash = type.find('/');
-    const bool is_short = slash != std::string::npos && type.find('/', slash + 1) == std::string::npos;
-    return is_short ? type.substr(0, slash) + "/msg" + type.substr(slash) : type;
-}
-
 ros2::CallId call_id(ClientNumber client, std::int64_t number) {
     ros2::CallId id;
     for (std::size_t i = 0; i < 8; ++i) id.client[i] = static_cast<std::uint8_t>(client >> (8 * i));
@@ -143,7 +136,7 @@ std::string Hub::problem_of(const ClientChannel& channel) const {
     const auto use = topics_.find(channel.topic);
     if (use == topics_.end() || use->second.subscriptions.empty())
         return "nothing here subscribes to " + channel.topic;
-    if (full_name(channel.schema_name) != use->second.type)
+    if (ros2::full_type_name(channel.schema_name) != use->second.type)
         return channel.topic + " is a topic of " + use->second.type + ", not of " + channel.schema_name;
     return {};
 }

@@ -19,7 +19,7 @@ struct BridgedTopic {
     const MessageType* type = nullptr;  ///< of its messages, one of topic.types
 };
 
-/// What a file means in a world.
+/// The meaning of a file in a world.
 struct BridgeMatch {
     std::vector<BridgedTopic> topics;  ///< in the order of the file; no two are equal
     std::set<std::string> names;       ///< of these topics

@@ -16,6 +16,8 @@
 #include <optional>
 #include <string_view>
 
+#include "ros2_types/type_description.h"
+
 namespace roboss::ros2 {
 
 namespace {
@@ -64,13 +66,6 @@ std::string problem_of_ros_name(const std::string& name) {
 std::string absolute(const std::string& name) {
     if (name == "~" || name.starts_with("~/")) return "/" + std::string(kBridgeNode) + name.substr(1);
     return (name.starts_with('/') ? "" : "/") + name;
-}
-
-/// "std_msgs/String" is "std_msgs/msg/String".
-std::string full_type(const std::string& type, const std::string& middle) {
-    const std::size_t slash = type.find('/');
-    if (slash == std::string::npos || type.find('/', slash + 1) != std::string::npos) return type;
-    return type.substr(0, slash) + "/" + middle + type.substr(slash);
 }
 
 /// The text of a file with YAML, entry by entry.
@@ -161,7 +156,7 @@ class BridgeReader {
         };
         entry.ros_name = absolute(first_of(both, ros, gazebo));
         entry.gz_name = gazebo_name(first_of(both, gazebo, ros));
-        entry.type = full_type(values["ros_type_name"], "msg");
+        entry.type = full_type_name(values["ros_type_name"]);
         return Ok{};
     }
 
@@ -172,7 +167,7 @@ class BridgeReader {
         entry.is_service = true;
         entry.ros_name = absolute(values["service_name"]),
         entry.gz_name = gazebo_name(values["service_name"]);
-        entry.type = full_type(values["ros_type_name"], "srv");
+        entry.type = full_type_name(values["ros_type_name"], "srv");
         return Ok{};
     }
 

@@ -8,8 +8,8 @@
 
 namespace roboss::ros2 {
 
-/// Of `topics`, each that an entry names has its name and type; further entries for it become topics of their
-/// own. Others that have such a name get another one.
+/// Gives each of `topics` that an entry names its name and type; further entries for it become topics of
+/// their own. Others that have such a name get another one.
 void name_commands(const BridgeMatch& bridge, const Model& model, std::vector<CommandTopic>& topics);
 
 }  // namespace roboss::ros2

@@ -1,7 +1,7 @@
 // See bridged_topics.h.
 #include "ros2/bridged_topics.h"
 
-#include <algorithm>
+#include <map>
 #include <utility>
 
 #include "ros2/robot_names.h"
@@ -9,9 +9,8 @@
 
 namespace roboss::ros2 {
 
-BridgedTopics::BridgedTopics(const BridgeMatch& bridge, std::vector<Topic>& topics, const UsualTopic& usual,
-                             std::map<std::string, RobotId> robots)
-    : is_named_(topics.size(), false), robots_(std::move(robots)) {
+BridgedTopics::BridgedTopics(const BridgeMatch& bridge, std::vector<Topic>& topics, const UsualTopic& usual)
+    : is_named_(topics.size(), false) {
     const std::size_t before = topics.size();
     for (const BridgedTopic& bridged : bridge.topics) {
         if (bridged.topic.kind == GazeboTopic::Kind::kCommand) continue;
@@ -24,7 +23,7 @@ BridgedTopics::BridgedTopics(const BridgeMatch& bridge, std::vector<Topic>& topi
 }
 
 void BridgedTopics::add(const BridgedTopic& bridged, std::size_t usual, std::vector<Topic>& topics) {
-    // The world's own topics have all frames, and the clock: whoever asks for these names has them.
+    // The world's own topics, which have all frames and the clock, keep these names.
     const bool is_of_world = usual <= RobotTopics::kTfStatic;
     if (is_of_world && (bridged.name == "/clock" || bridged.name == "/tf" || bridged.name == "/tf_static"))
         return;
@@ -35,8 +34,10 @@ void BridgedTopics::add(const BridgedTopic& bridged, std::size_t usual, std::vec
         return;
     }
     const RobotId robot = bridged.topic.robot;
-    if (has_type)
-        copies_.push_back({usual, topics.size(), is_of_world ? robot : RobotId{}});
+    if (is_of_world && robot.valid())
+        frames_.emplace_back(robot, topics.size());
+    else if (has_type)
+        copies_.push_back({usual, topics.size()});
     else
         forms_.push_back(
             {usual, topics.size(), robot, bridged.topic.number, bridged.type == &type_of<LaserScan>()});
@@ -46,7 +47,7 @@ void BridgedTopics::add(const BridgedTopic& bridged, std::size_t usual, std::vec
 std::vector<bool> BridgedTopics::needed(std::vector<bool> wanted) {
     wanted_ = std::move(wanted);
     std::vector<bool> needed = wanted_;
-    for (const auto& [usual, topic, robot] : copies_)
+    for (const auto& [usual, topic] : copies_)
         if (wanted_[topic]) needed[usual] = true;
     for (const Form& form : forms_)
         if (wanted_[form.topic]) needed[form.usual] = true;
@@ -70,28 +71,10 @@ void BridgedTopics::finish(std::vector<RobotTopics::Message>& messages) const {
         if (wanted_[copy.topic]) usual[copy.usual];
     for (const RobotTopics::Message& message : messages)
         if (const auto found = usual.find(message.topic); found != usual.end()) found->second = message.bytes;
-    std::map<std::size_t, std::map<RobotId, TFMessage>> frames;
-    for (const Copy& copy : copies_) {
-        if (!wanted_[copy.topic] || usual[copy.usual].empty()) continue;
-        if (!copy.robot.valid()) {
+    for (const Copy& copy : copies_)
+        if (wanted_[copy.topic] && !usual[copy.usual].empty())
             messages.push_back({copy.topic, usual[copy.usual]});
-            continue;
-        }
-        auto& parts = frames[copy.usual];
-        if (parts.empty()) parts = by_robot(usual[copy.usual]);
-        messages.push_back({copy.topic, to_cdr(parts[copy.robot])});
-    }
     std::erase_if(messages, [&](const RobotTopics::Message& message) { return !wanted_[message.topic]; });
-}
-
-/// The frames of a TFMessage, apart for each robot.
-std::map<RobotId, TFMessage> BridgedTopics::by_robot(const std::string& bytes) const {
-    std::map<RobotId, TFMessage> parts;
-    const TFMessage all = from_cdr<TFMessage>(bytes).value();
-    for (const TransformStamped& frame : all.transforms)
-        if (const auto known = robots_.find(frame.child_frame_id); known != robots_.end())
-            parts[known->second].transforms.push_back(frame);
-    return parts;
 }
 
 }  // namespace roboss::ros2

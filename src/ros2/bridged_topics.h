@@ -4,9 +4,9 @@
 #pragma once
 
 #include <functional>
-#include <map>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "ros2/bridge.h"
@@ -22,23 +22,23 @@ class BridgedTopics {
     using UsualTopic = std::function<std::optional<std::size_t>(const GazeboTopic&)>;
 
     /// Renames `topics`, but for those of the world, and adds others behind them.
-    /// `robots`: of each frame below the base of a robot, and of its base.
-    BridgedTopics(const BridgeMatch& bridge, std::vector<Topic>& topics, const UsualTopic& usual,
-                  std::map<std::string, RobotId> robots);
+    BridgedTopics(const BridgeMatch& bridge, std::vector<Topic>& topics, const UsualTopic& usual);
+
+    /// Topics that were added for the frames of one robot alone.
+    const std::vector<std::pair<RobotId, std::size_t>>& frames_of_robots() const { return frames_; }
 
     /// The topics whose messages must be made so that the wanted ones have theirs.
     std::vector<bool> needed(std::vector<bool> wanted);
     /// Adds the messages of a sensor in other forms.
     void add_forms(const SensorPlace& place, RobotId robot, std::size_t sensor, const Sample& sample,
                    std::vector<RobotTopics::Message>& out) const;
-    /// Adds the other messages of topics of its own, and removes those that nobody wants.
+    /// Adds the other messages of topics of its own, and removes those that are not wanted.
     void finish(std::vector<RobotTopics::Message>& messages) const;
 
   private:
     /// A topic with the messages of a usual one.
     struct Copy {
         std::size_t usual = 0, topic = 0;
-        RobotId robot;  // valid: only the frames of this one
     };
     /// A topic with the readings of a laser in another form.
     struct Form {
@@ -49,12 +49,11 @@ class BridgedTopics {
     };
 
     void add(const BridgedTopic& bridged, std::size_t usual, std::vector<Topic>& topics);
-    std::map<RobotId, TFMessage> by_robot(const std::string& bytes) const;
 
     std::vector<bool> wanted_, is_named_;
     std::vector<Copy> copies_;
     std::vector<Form> forms_;
-    std::map<std::string, RobotId> robots_;
+    std::vector<std::pair<RobotId, std::size_t>> frames_;
 };
 
 }  // namespace roboss::ros2

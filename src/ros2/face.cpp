@@ -6,7 +6,6 @@
 #include <exception>
 #include <utility>
 
-#include "ros2/bridge.h"
 #include "ros2/robot_names.h"
 #include "ros2/stamps.h"
 #include "ros2_types/cdr.h"
@@ -77,8 +76,7 @@ Result<> Face::show(std::shared_ptr<const Model> model, const Address& self) {
                      "`roboss check WORLD` prints the names of robots", "no-robot"};
     topics_ = std::make_unique<RobotTopics>(model_, options_.topics);
     commands_ = std::make_unique<RobotCommands>(model_, options_.topics);
-    if (options_.topics.bridge)
-        for (const std::string& line : match_bridge(*options_.topics.bridge, *model_).notices) notice(line);
+    for (const std::string& line : topics_->bridge_notices()) notice(line);
     lockstep_.reset();
     if (times.synchronous) {
         Result<Lockstep> lockstep = Lockstep::of(options_.lockstep, *commands_);
@@ -186,8 +184,8 @@ bool Face::is_ready(std::int64_t now_ms) {
 }
 
 /// Subscriptions that come while the world waits, as those of a node that was started again, get the messages
-/// that they missed. Other subscriptions to such a topic get them twice; so at first only topics that nobody
-/// had.
+/// that they missed. Other subscriptions to such a topic get them twice; so at first only topics without
+/// subscriptions.
 void Face::publish_to_late(std::int64_t now_ms) {
     const std::vector<std::size_t> count = count_subscribers();
     std::vector<bool> late(count.size());

@@ -5,7 +5,6 @@
 #include <limits>
 #include <utility>
 
-#include "client/held_samples.h"
 #include "model/topics.h"
 #include "physics/dynamics/kinematics.h"
 #include "ros2/robot_messages.h"
@@ -129,8 +128,8 @@ Result<std::string> FleetTopics::scans_message(Tick tick, Tick last,
     for (std::size_t r = 0; r < rows_.size(); ++r) {
         const Row& row = rows_[r];
         if (row.laser == kNone) continue;
-        const double rate = model_->type_of(row.robot).sensors[row.laser].spec.update_rate_hz;
-        if (rate > 0 && last >= 0 && !sample_is_due(rate, model_->dt_s, last, tick)) continue;
+        const SensorSpec& laser = model_->type_of(row.robot).sensors[row.laser].spec;
+        if (!has_new_sample(laser, *model_, last, tick)) continue;
         const Result<std::optional<Sample>> sample = measure(row.robot, row.laser);
         if (!sample) return sample.error();
         if (!sample.value()) continue;

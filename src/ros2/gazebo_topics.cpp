@@ -8,6 +8,7 @@
 #include "model/topics.h"
 #include "ros2/bridge_file.h"
 #include "ros2/robot_commands.h"
+#include "ros2/robot_names.h"
 #include "ros2/sensor_messages.h"
 #include "ros2_types/messages/command_messages.h"
 
@@ -26,7 +27,7 @@ std::string scoped(const std::string& name, const std::string& last) {
     return path + "/" + last + "/" + name.substr(begin);
 }
 
-/// What gz-sim puts behind the name of a sensor that has no <topic>.
+/// The end that gz-sim gives to the topic of a sensor without <topic>.
 const char* usual_end(const SensorSpec& sensor) {
     if (sensor.as<LaserSpec>()) return "/scan";
     if (sensor.as<RgbdCameraSpec>()) return "";
@@ -43,11 +44,6 @@ const char* usual_end(const SensorSpec& sensor) {
     if (sensor.as<AirSpeedSpec>()) return "/air_speed";
     if (sensor.as<BoxCameraSpec>()) return "/boundingbox";
     return "/image";
-}
-
-/// The last part of a path replaced: "/front/image" is "/front/camera_info".
-std::string beside(const std::string& path, const std::string& name) {
-    return path.substr(0, path.rfind('/') + 1) + name;
 }
 
 /// The topics of one message of a sensor whose own topic is `topic`; `suffix`: as publish() says it.
@@ -157,14 +153,12 @@ class GazeboTopicList {
                                       ? gazebo_name(info.spec.ros_topic)
                                       : scope_ + place + "/sensor/" + info.spec.name + usual_end(info.spec);
         std::size_t message = 0;
-        publish(SensorPlace{model_, info, {}, {}, {}, {}, {}, {}}, nullptr,
-                [&]<class M>(const char* suffix, const M&) {
-                    for (const std::string& name :
-                         of_plugin.empty() ? names_of(info.spec, topic, suffix) : of_plugin)
-                        add({name, GazeboTopic::Kind::kReading, robot, number, message,
-                             types_of(info.spec, type_of<M>())});
-                    ++message;
-                });
+        for_each_topic(model_, info, [&]<class M>(const char* suffix, const M&) {
+            for (const std::string& name : of_plugin.empty() ? names_of(info.spec, topic, suffix) : of_plugin)
+                add({name, GazeboTopic::Kind::kReading, robot, number, message,
+                     types_of(info.spec, type_of<M>())});
+            ++message;
+        });
     }
 
     const Model& model_;

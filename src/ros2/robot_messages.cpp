@@ -3,6 +3,7 @@
 
 #include <utility>
 
+#include "client/held_samples.h"
 #include "physics/dynamics/kinematics.h"
 #include "physics/dynamics/motor_effort.h"
 #include "ros2/sensor_messages.h"
@@ -71,6 +72,11 @@ Odometry true_odometry(const RobotType& type, const RobotState& state, const std
     odometry.twist.twist = {sensor_messages::vector(R_LW * twist.linear),
                             sensor_messages::vector(R_LW * twist.angular)};
     return odometry;
+}
+
+bool has_new_sample(const SensorSpec& sensor, const Model& model, Tick last, Tick tick) {
+    const double rate = sensor.update_rate_hz;
+    return rate <= 0 || last < 0 || sample_is_due(rate, model.dt_s, last, tick);
 }
 
 std::vector<JointId> single_axis_joints(const RobotType& type) {

@@ -32,6 +32,9 @@ void add_moving_links(const RobotType& type, const RobotState& state, const std:
 Odometry true_odometry(const RobotType& type, const RobotState& state, const std::string& name,
                        const Time& stamp);
 
+/// True if a sensor has a new sample at `tick`, since the look at `last` (-1: there was none).
+bool has_new_sample(const SensorSpec& sensor, const Model& model, Tick last, Tick tick);
+
 /// Joints of one axis, as JointState has them.
 std::vector<JointId> single_axis_joints(const RobotType& type);
 /// Adds these joints of a robot, their names with `prefix` in front.

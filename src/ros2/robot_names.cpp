@@ -31,6 +31,10 @@ std::string ros_path(const std::string& path) {
     return result.empty() ? "_" : result;
 }
 
+std::string beside(const std::string& path, const std::string& name) {
+    return path.substr(0, path.rfind('/') + 1) + name;
+}
+
 std::string unique_name(const std::string& name, std::set<std::string>& taken) {
     std::string result = name;
     for (int number = 2; !taken.insert(result).second; ++number) result = name + "_" + std::to_string(number);

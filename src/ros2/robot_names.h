@@ -15,6 +15,9 @@ std::string ros_name(const std::string& name);
 /// The same of each part of a path: "/front/scan" is "front/scan".
 std::string ros_path(const std::string& path);
 
+/// The path with another last part: "/front/image" is "/front/camera_info".
+std::string beside(const std::string& path, const std::string& name);
+
 /// The name, or with _2, _3 ... the first that is not taken; takes it.
 std::string unique_name(const std::string& name, std::set<std::string>& taken);
 

@@ -24,7 +24,7 @@ std::string topic_name(const std::string& robot, const SensorSpec& sensor, const
     if (sensor.as<RgbdCameraSpec>())
         given += "/" + suffix;
     else if (suffix.ends_with("camera_info"))
-        given = given.substr(0, given.rfind('/') + 1) + "camera_info";
+        given = beside(given, "camera_info");
     return sensor.ros_topic.starts_with('/') ? "/" + given : below(robot, given);
 }
 
@@ -69,22 +69,15 @@ RobotTopics::RobotTopics(std::shared_ptr<const Model> model, const TopicOptions&
 /// Gives topics the names and types of a bridge's file.
 void RobotTopics::use(const Bridge& bridge) {
     std::map<std::pair<RobotId, std::size_t>, std::size_t> firsts;  // topics of sensors
-    std::map<std::string, RobotId> frames;
-    for (std::size_t r = 0; r < robots_.size(); ++r)
-        for (const std::string& frame : robots_[r].frames) frames.emplace(frame, RobotId(r));
-    for (const Source& source : sources_) {
-        firsts[{source.robot, source.sensor}] = source.first;
-        for (const std::string& frame : {source.frame, source.optical_frame, source.odometry_frame})
-            if (!frame.empty()) frames.emplace(frame, source.robot);
-    }
+    for (const Source& source : sources_) firsts[{source.robot, source.sensor}] = source.first;
     const auto usual = [&](const GazeboTopic& topic) -> std::optional<std::size_t> {
         switch (topic.kind) {
             case GazeboTopic::Kind::kClock:
                 return kClock;
             case GazeboTopic::Kind::kFrames:
-                return topic.robot.valid() ? robots_[topic.robot.index()].tf : kTf;
+                return topic.robot.valid() ? robots_[topic.robot.index()].tf.front() : kTf;
             case GazeboTopic::Kind::kFixedFrames:
-                return topic.robot.valid() ? robots_[topic.robot.index()].tf_static : kTfStatic;
+                return topic.robot.valid() ? robots_[topic.robot.index()].tf_static.front() : kTfStatic;
             case GazeboTopic::Kind::kJointStates:
                 return robots_[topic.robot.index()].joint_states;
             case GazeboTopic::Kind::kReading:
@@ -94,8 +87,13 @@ void RobotTopics::use(const Bridge& bridge) {
         }
         return {};
     };
-    bridged_ =
-        std::make_shared<BridgedTopics>(match_bridge(bridge, *model_), topics_, usual, std::move(frames));
+    BridgeMatch match = match_bridge(bridge, *model_);
+    bridge_notices_ = std::move(match.notices);
+    bridged_ = std::make_shared<BridgedTopics>(match, topics_, usual);
+    for (const auto& [robot, topic] : bridged_->frames_of_robots()) {
+        RobotPart& part = robots_[robot.index()];
+        (topics_[topic].is_latched ? part.tf_static : part.tf).push_back(topic);
+    }
 }
 
 std::size_t RobotTopics::add_topic(const std::string& name, const MessageType& type, bool is_latched,
@@ -117,8 +115,8 @@ void RobotTopics::add_robot(RobotId robot, const std::string& name, const TopicO
         return add_topic(unique_name(below(name, usual), taken.topics), message, is_latched, robot);
     };
     if (part.is_plain && !name.empty()) {  // those of the robot at the root are the world's
-        part.tf = add("tf", type_of<TFMessage>(), false);
-        part.tf_static = add("tf_static", type_of<TFMessage>(), true);
+        part.tf = {add("tf", type_of<TFMessage>(), false)};
+        part.tf_static = {add("tf_static", type_of<TFMessage>(), true)};
     }
     part.joints = single_axis_joints(type);
     if (!part.joints.empty()) part.joint_states = add("joint_states", type_of<JointStateMessage>(), false);
@@ -135,20 +133,18 @@ void RobotTopics::add_sensors(RobotId robot, Taken& taken) {
     // Topics that several sensors have get the sensor's name in front.
     std::map<std::string, int> uses;
     for (const SensorInfo& info : type.sensors)
-        publish(SensorPlace{*model_, info, {}, {}, {}, {}, {}, {}}, nullptr,
-                [&](const char* suffix, const auto&) { ++uses[suffix]; });
+        for_each_topic(*model_, info, [&](const char* suffix, const auto&) { ++uses[suffix]; });
     for (std::size_t s = 0; s < type.sensors.size(); ++s) {
         const SensorInfo& info = type.sensors[s];
         const std::string sensor_name = ros_name(info.spec.name);
         const bool is_camera = sensor_messages::optics_of(info.spec) != nullptr;
         Source source{robot, s, topics_.size(), 0, "", "", "", {}};
-        publish(SensorPlace{*model_, info, {}, {}, {}, {}, {}, {}}, nullptr,
-                [&]<class M>(const char* suffix, const M&) {
-                    const bool is_named = is_camera || uses[suffix] > 1;
-                    const std::string usual = (is_named ? sensor_name + "/" : "") + suffix;
-                    const std::string topic = topic_name(part.name, info.spec, suffix, usual);
-                    add_topic(taken.topic(topic, part.name), type_of<M>(), false, robot);
-                });
+        for_each_topic(*model_, info, [&]<class M>(const char* suffix, const M&) {
+            const bool is_named = is_camera || uses[suffix] > 1;
+            const std::string usual = (is_named ? sensor_name + "/" : "") + suffix;
+            const std::string topic = topic_name(part.name, info.spec, suffix, usual);
+            add_topic(taken.topic(topic, part.name), type_of<M>(), false, robot);
+        });
         source.count = topics_.size() - source.first;
         if (source.count == 0) {
             if (!info.spec.as<JointStatesSpec>())

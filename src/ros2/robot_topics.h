@@ -59,6 +59,8 @@ class RobotTopics {
 
     /// All topics, in a fixed order: those of the world first.
     const std::vector<Topic>& topics() const { return topics_; }
+    /// Entries of TopicOptions::bridge that have no effect in this world, one line each.
+    const std::vector<std::string>& bridge_notices() const { return bridge_notices_; }
     /// Sensors that have no messages in ROS 2: "car_3.radio".
     const std::vector<std::string>& left_out() const { return left_out_; }
     /// From now on only these topics have messages; `wanted`: one for each of topics(). At first all have.
@@ -89,16 +91,16 @@ class RobotTopics {
 
     /// The names of a robot.
     struct RobotPart {
-        std::string name;                             // in ROS 2
-        std::string prefix;                           // of its frames
-        bool is_plain = false;                        // its frames have no prefix
-        std::vector<std::string> frames;              // by LinkId; the first is the base
-        std::vector<JointId> joints;                  // of one axis, that move
-        std::size_t joint_states = 0;                 // its topic; 0: none
-        std::size_t ground_truth = 0;                 // its topic; 0: none
-        std::size_t description = 0;                  // its topic
-        std::size_t tf = kTf, tf_static = kTfStatic;  // topics of its frames
-        std::size_t odometry = kNone;                 // its first odometry, in sources_
+        std::string name;                                        // in ROS 2
+        std::string prefix;                                      // of its frames
+        bool is_plain = false;                                   // its frames have no prefix
+        std::vector<std::string> frames;                         // by LinkId; the first is the base
+        std::vector<JointId> joints;                             // of one axis, that move
+        std::size_t joint_states = 0;                            // its topic; 0: none
+        std::size_t ground_truth = 0;                            // its topic; 0: none
+        std::size_t description = 0;                             // its topic
+        std::vector<std::size_t> tf{kTf}, tf_static{kTfStatic};  // topics of its frames
+        std::size_t odometry = kNone;                            // its first odometry, in sources_
 
         bool is_link(const std::string& frame) const {
             return std::ranges::find(frames, frame) != frames.end();
@@ -120,7 +122,7 @@ class RobotTopics {
     std::shared_ptr<const Model> model_;
     std::vector<Topic> topics_;
     std::vector<bool> wanted_;
-    std::vector<std::string> left_out_;
+    std::vector<std::string> left_out_, bridge_notices_;
     std::vector<Source> sources_;
     std::vector<RobotPart> robots_;
     std::unique_ptr<FleetTopics> fleet_;      // null: there are none

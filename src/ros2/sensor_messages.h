@@ -45,7 +45,7 @@ PointCloud2 cloud(const LaserSpec& laser, const LaserReading& reading, const Sen
 /// The calibration of a camera whose image has this size.
 CameraInfo camera_info(const CameraOptics& optics, const std::vector<double>& intrinsics,
                        const std::vector<double>& distortion, const SensorPlace& place);
-/// What touches the link, one contact for each other robot; normals and forces in the axes of the world.
+/// The things that touch the link, one contact for each robot; normals and forces in the axes of the world.
 Contacts contacts(const ContactReading& reading, const SensorPlace& place);
 /// True if a laser is a single level row of beams at even angles, as LaserScan demands.
 bool is_level_scan(const LaserSpec& laser);
@@ -277,6 +277,12 @@ void publish(const SensorPlace& place, const Sample* sample, Out&& out) {
             }
         },
         place.info.spec.parameters);
+}
+
+/// Calls out(suffix, message) for each topic of a sensor; the messages are empty.
+template <class Out>
+void for_each_topic(const Model& model, const SensorInfo& info, Out&& out) {
+    publish(SensorPlace{model, info, {}, {}, {}, {}, {}, {}}, nullptr, out);
 }
 
 }  // namespace roboss::ros2

@@ -4,7 +4,6 @@
 #include <set>
 #include <utility>
 
-#include "client/held_samples.h"
 #include "ros2/bridged_topics.h"
 #include "ros2/fleet_topics.h"
 #include "ros2/robot_description.h"
@@ -34,13 +33,15 @@ void RobotTopics::add_fixed_frames(Tick tick, std::vector<Message>& out) const {
     const Time stamp = stamp_of(*model_, tick);
     std::map<std::size_t, TFMessage> fixed;  // by topic
     for (std::size_t r = 0; r < robots_.size(); ++r)
-        add_fixed_links(model_->type_of(RobotId(r)), robots_[r].frames, stamp, fixed[robots_[r].tf_static]);
+        for (const std::size_t topic : robots_[r].tf_static)
+            add_fixed_links(model_->type_of(RobotId(r)), robots_[r].frames, stamp, fixed[topic]);
     std::set<std::string> odometry_frames;
     for (const Source& source : sources_) {
         const SensorInfo& info = model_->type_of(source.robot).sensors[source.sensor];
         const RobotPart& part = robots_[source.robot.index()];
         const auto add = [&](const std::string& parent, const std::string& child, const Transform& X) {
-            fixed[part.tf_static].transforms.push_back(transform(stamp, parent, child, X));
+            for (const std::size_t topic : part.tf_static)
+                fixed[topic].transforms.push_back(transform(stamp, parent, child, X));
         };
         if (part.is_link(source.frame)) continue;
         if (!source.frame.empty())
@@ -62,7 +63,7 @@ Result<> RobotTopics::add_moving_frames(Tick tick, std::span<const RobotState> s
     std::map<std::size_t, TFMessage> moving;  // by topic
     for (std::size_t r = 0; r < robots_.size(); ++r) {
         const RobotPart& part = robots_[r];
-        if (!wanted_[part.tf]) continue;
+        if (std::ranges::none_of(part.tf, [&](std::size_t topic) { return wanted_[topic]; })) continue;
         std::optional<SeenBase> seen;
         if (part.is_plain && part.odometry != kNone) {
             const Source& source = sources_[part.odometry];
@@ -71,7 +72,10 @@ Result<> RobotTopics::add_moving_frames(Tick tick, std::span<const RobotState> s
             if (!sample.value()) continue;
             seen = {source.odometry_frame, to_transform(sensor_messages::odometry_pose(*sample.value()))};
         }
-        add_moving_links(model_->type_of(RobotId(r)), states[r], part.frames, seen, stamp, moving[part.tf]);
+        for (const std::size_t topic : part.tf)
+            if (wanted_[topic])
+                add_moving_links(model_->type_of(RobotId(r)), states[r], part.frames, seen, stamp,
+                                 moving[topic]);
     }
     for (const auto& [topic, frames] : moving) out.push_back({topic, to_cdr(frames)});
     return Ok{};
@@ -97,8 +101,7 @@ bool RobotTopics::is_due(const Source& source, Tick tick) const {
     if (std::find(begin, begin + static_cast<std::ptrdiff_t>(source.count), true) ==
         begin + static_cast<std::ptrdiff_t>(source.count))
         return false;
-    const double rate = model_->type_of(source.robot).sensors[source.sensor].spec.update_rate_hz;
-    return rate <= 0 || last_ < 0 || sample_is_due(rate, model_->dt_s, last_, tick);
+    return has_new_sample(model_->type_of(source.robot).sensors[source.sensor].spec, *model_, last_, tick);
 }
 
 void RobotTopics::add_readings(const Source& source, Tick tick, const Sample& sample,

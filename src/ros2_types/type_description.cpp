@@ -76,6 +76,12 @@ std::string definition_text(const TypeDescription& type) {
     return text;
 }
 
+std::string full_type_name(const std::string& type, const std::string& middle) {
+    const std::size_t slash = type.find('/');
+    if (slash == std::string::npos || type.find('/', slash + 1) != std::string::npos) return type;
+    return type.substr(0, slash) + "/" + middle + type.substr(slash);
+}
+
 void add_nested(TypeDescription& type, TypeDescription part) {
     std::vector<TypeDescription> parts = std::move(part.nested);
     part.nested.clear();

@@ -38,6 +38,9 @@ std::string type_hash(const TypeDescription& type);
 /// The definition in the format ros2msg: that of the type, then those of the types that it consists of.
 std::string definition_text(const TypeDescription& type);
 
+/// "geometry_msgs/msg/Twist" of that or of "geometry_msgs/Twist"; `middle`: "msg" or "srv".
+std::string full_type_name(const std::string& type, const std::string& middle = "msg");
+
 /// Adds `part` and what it consists of to type.nested.
 void add_nested(TypeDescription& type, TypeDescription part);
 

@@ -6,6 +6,7 @@ import subprocess
 import sys
 import threading
 import time
+from pathlib import Path
 
 PATIENCE = 20  # s
 # Fast DDS 2.9.1 ends its process when it gets this: a flaw in the reading of discovery.
@@ -14,6 +15,12 @@ BAD_DATAGRAM = b"RTPS\x02\x03\x01\x0f" + bytes(12) + b"\x80\x01\x38\x00" + bytes
 CYCLONE_OF_HOST = """<CycloneDDS><Domain><General><AllowMulticast>false</AllowMulticast></General><Discovery>
 <ParticipantIndex>auto</ParticipantIndex><Peers><Peer address="localhost"/></Peers><MaxAutoParticipantIndex>32
 </MaxAutoParticipantIndex></Discovery></Domain></CycloneDDS>"""
+
+
+def children_of(pid, word=""):
+    """Ids of the processes that this one started; with a word, of those that have it on their command line."""
+    children = Path(f"/proc/{pid}/task/{pid}/children").read_text().split()
+    return [int(child) for child in children if not word or word.encode() in Path(f"/proc/{child}/cmdline").read_bytes().split(b"\0")]
 
 
 class Process:

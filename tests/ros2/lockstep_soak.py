@@ -17,19 +17,10 @@ import threading
 import time
 from pathlib import Path
 
-from harness import Process, enter_own_network, python_of
+from harness import Process, children_of, enter_own_network, python_of
 
 HERE = Path(__file__).resolve().parent
 ROBOTS, NODES = 20, 5
-
-
-def children_of(pid, word):
-    """Ids of the child processes whose command line has this word."""
-    found = []
-    for child in Path(f"/proc/{pid}/task/{pid}/children").read_text().split():
-        if word.encode() in Path(f"/proc/{child}/cmdline").read_bytes().split(b"\0"):
-            found.append(int(child))
-    return found
 
 
 def kill_simulators(run, chance, killed):

@@ -10,7 +10,7 @@ import tempfile
 import unittest
 from pathlib import Path
 
-from harness import CYCLONE_OF_HOST, Process, enter_own_network, python_of
+from harness import CYCLONE_OF_HOST, Process, children_of, enter_own_network, python_of
 
 HERE = Path(__file__).resolve().parent
 ROBOSS, WORLD, CLIENTS, NAME = Path(sys.argv[1]), Path(sys.argv[2]), Path(sys.argv[3]), sys.argv[4]
@@ -53,7 +53,7 @@ class WithRun(unittest.TestCase):
 
     def faces_of(self, run):
         """Ids of the processes that the run started."""
-        return [int(pid) for pid in Path(f"/proc/{run.pid}/task/{run.pid}/children").read_text().split()]
+        return children_of(run.pid)
 
 
 def main(*cases):

@@ -68,9 +68,7 @@ class FaceProcess {
         if (!model) return member_.exit_code();
         const ros2::RobotTopics shown(model, face_.topics);
         const ros2::RobotCommands obeyed(model, face_.topics);
-        if (face_.topics.bridge)
-            for (const std::string& line : ros2::match_bridge(*face_.topics.bridge, *model).notices)
-                member_.report(line);
+        for (const std::string& line : shown.bridge_notices()) member_.report(line);
         for (const ros2::Topic& topic : shown.topics()) say("{}  {}\n", topic.name, topic.type->name);
         for (const ros2::CommandTopic& topic : obeyed.topics())
             say("{}  {}  (drives it)\n", topic.name, topic.type->name);

@@ -12,6 +12,7 @@
 
 #include "app/worlds/orders_file.h"
 #include "bags/bag.h"
+#include "bags/decompress.h"
 #include "bags/simulated_time.h"
 #include "ros2/robot_commands.h"
 #include "ros2/stamps.h"
@@ -22,7 +23,6 @@ namespace {
 
 constexpr std::size_t kMostBagFaults = 1'000;                  // more tell nothing new
 constexpr std::size_t kMostOrderBytes = std::size_t{4} << 30;  // of orders
-constexpr std::string_view kPackedMagic = "\x28\xB5\x2F\xFD";  // no CDR begins so
 
 std::string_view cdr_of(bags::Bytes bytes) {
     return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
@@ -183,7 +183,7 @@ class OrderSink : public bags::Sink {
 
     void take_command(const bags::Topic& topic, const bags::Message& message) {
         const std::string_view cdr = cdr_of(message.bytes);
-        if (cdr.starts_with(kPackedMagic))
+        if (cdr.starts_with(bags::kZstdMagic))  // no CDR begins so
             return fault(topic, message,
                          {topic.name + ": it is compressed by itself", "unpack the bag (`ros2 bag convert`)",
                           "compressed-message"});

@@ -10,7 +10,7 @@
 
 namespace roboss {
 
-/// What a bag asks the robots for.
+/// The orders that the commands of a bag stand for.
 struct BagOrders {
     std::vector<Order> orders;  ///< in the order of log times; `sequence` counts them from 1
     std::string summary;        ///< "12 commands on 2 topics; 3 topics of the bag drive no robot ..."

@@ -48,7 +48,7 @@ class Commander:
                 "positions": [self.positions.get(name) for name in self.joints[:2]]}
 
     def follow(self):
-        """To the end, while its status is told."""
+        """Waits for the end of a goal, and for its statuses."""
         goal, sent = self.action.give(**self.trajectory((0.5, 0.2, 0.1), (1.0, 0.4, -0.2)))
         until(lambda: self.action.look() or 2 in self.action.statuses_of(goal))
         result = self.action.await_result(goal)

@@ -11,6 +11,8 @@ from cyclonedds.util import duration
 from interfaces import fields_of, message, parts, struct, types, value
 
 PATIENCE = 20  # s
+BOX = """<sdf version="1.9"><model name="box"><link name="link"><inertial><mass>1</mass></inertial><collision name="c">
+<geometry><box><size>0.2 0.2 0.2</size></box></geometry></collision></link></model></sdf>"""
 CLIENT = 4711
 RELIABLE = Policy.Reliability.Reliable(duration(seconds=1))
 VOLATILE = Qos(RELIABLE, Policy.History.KeepLast(100))

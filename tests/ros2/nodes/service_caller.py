@@ -5,11 +5,9 @@ Usage: service_caller.py simulation|resets|gazebo      on a run of example:fleet
 import json
 import sys
 
-from cyclone_client import Peer, stamp_ns, until
+from cyclone_client import BOX, Peer, stamp_ns, until
 from interfaces import message, value
 
-BOX = """<sdf version="1.9"><model name="box"><link name="link"><inertial><mass>1</mass></inertial><collision name="c">
-<geometry><box><size>0.2 0.2 0.2</size></box></geometry></collision></link></model></sdf>"""
 PAUSED, PLAYING, STOPPED, NO_WORLD = 2, 1, 0, 4
 POSE = message("geometry_msgs/Pose")
 QUATERNION = message("geometry_msgs/Quaternion")
