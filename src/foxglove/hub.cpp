@@ -127,7 +127,8 @@ void Hub::remove_publisher(EntityId entity) {
 }
 
 void Hub::remove_service(EntityId entity) {
-    for (auto& [number, client] : clients_) {
+    for (auto& numbered : clients_) {
+        Client& client = numbered.second;
         std::erase_if(client.calls, [&](const auto& call) {
             if (call.first == entity) send(client, call_failure(entity, call.second, "the service has gone"));
             return call.first == entity;
