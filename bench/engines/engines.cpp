@@ -38,6 +38,7 @@ std::span<const EngineKind> contestants() {
         std::vector<EngineKind> all(engines().begin(), engines().end());
         all.insert(all.begin() + 1, {{"RoBOSS-4", make_roboss_in_4_lanes},
                                      {"RoBOSS-1", make_roboss_in_1_lane},
+                                     {"RoBOSS-fast", make_roboss_fast},
                                      floats(),
                                      {"RoBOSS-float-8", make_roboss_in_8_floats}});
         return all;

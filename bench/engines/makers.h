@@ -8,6 +8,7 @@ namespace roboss::bench {
 std::unique_ptr<Engine> make_roboss(const World& world, const EngineOptions& options);
 std::unique_ptr<Engine> make_roboss_in_4_lanes(const World& world, const EngineOptions& options);
 std::unique_ptr<Engine> make_roboss_in_1_lane(const World& world, const EngineOptions& options);
+std::unique_ptr<Engine> make_roboss_fast(const World& world, const EngineOptions& options);
 std::unique_ptr<Engine> make_roboss_in_floats(const World& world, const EngineOptions& options);
 std::unique_ptr<Engine> make_roboss_in_8_floats(const World& world, const EngineOptions& options);
 std::unique_ptr<Engine> make_mujoco(const World& world, const EngineOptions& options);

@@ -35,7 +35,9 @@ class RobossEngine final : public Engine {
     }
 
     std::string name() const override {
-        const std::string ours = model_.precision == Precision::kFloat ? "RoBOSS-float" : "RoBOSS";
+        const std::string ours = model_.precision == Precision::kFloat ? "RoBOSS-float"
+                                 : accuracy_ < 1                       ? "RoBOSS-fast"
+                                                                       : "RoBOSS";
         return lanes_ == 0 ? ours : ours + "-" + std::to_string(lanes_) + (lanes_ == 1 ? " lane" : " lanes");
     }
     std::string settings() const override {
@@ -192,6 +194,12 @@ std::unique_ptr<Engine> make_roboss_in_4_lanes(const World& world, const EngineO
 
 std::unique_ptr<Engine> make_roboss_in_1_lane(const World& world, const EngineOptions& options) {
     return make(world, options, 1);
+}
+
+std::unique_ptr<Engine> make_roboss_fast(const World& world, const EngineOptions& options) {
+    EngineOptions fast = options;
+    fast.accuracy = 0.1;
+    return make(world, fast, 0);
 }
 
 std::unique_ptr<Engine> make_roboss_in_floats(const World& world, const EngineOptions& options) {

@@ -163,7 +163,7 @@ TEST(AccuracySettings, MoreAccuracyIsMoreTruth) {
                  standard_left = standard.off(Trial(strictly(named("standard"))));
     tell("fast: error left by the tolerances", fast_left);
     tell("standard: error left by the tolerances", standard_left);
-    EXPECT_LT(fast_left, 2e-4);  // sweeps alone; about as much as softness makes
+    EXPECT_LT(fast_left, 3e-3);  // m/s: soft substeps, of boxes that just landed
     // Newton's method mostly ends far below its tolerance.
     EXPECT_LT(standard_left, 2e-9);
     tell("standard: error by softness", standard.off(hard));

@@ -14,6 +14,7 @@
 #include "physics/dynamics/free_course.h"
 #include "physics/dynamics/integrate.h"
 #include "physics/dynamics/joint_rows.h"
+#include "physics/soft/soft_guard.h"
 #include "physics/solver/row_split.h"
 #include "physics/step.h"
 
@@ -52,6 +53,8 @@ struct IslandScratch {
     BondProjection bond_projection;
     SecondLook look;
     IslandParts solver;
+    soft::Solver soft;
+    soft::Guard soft_guard;
     RowBuffer buffer;
     FreeBuffer free_buffer;
     FreeCourses free_courses;  // for an island that is stepped beside others

@@ -130,7 +130,8 @@ rcl::ListParametersResult NodeParameters::list(const rcl::ListParameters::Reques
     };
     rcl::ListParametersResult result;
     std::set<std::string> prefixes;
-    for (const auto& [name, entry] : entries_) {
+    for (const auto& entry : entries_) {
+        const std::string& name = entry.first;
         const auto has = [&](const std::string& prefix) { return fits(name, prefix); };
         if (request.prefixes.empty() ? !fits(name, "") : std::ranges::none_of(request.prefixes, has))
             continue;

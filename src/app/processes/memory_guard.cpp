@@ -19,7 +19,7 @@ namespace {
 constexpr std::size_t kReserve = std::size_t{16} << 20;
 constexpr std::int64_t kLook_ms = 500;
 constexpr int kTurns = 8;
-constexpr double kMost = .97;  // of the limit of a control group: beyond it the kernel kills soon
+constexpr double kMostMemory = .97;  // of the limit of a control group: beyond it the kernel kills soon
 
 std::atomic<char*> g_reserve = nullptr;
 std::atomic<bool> g_failed = false;
@@ -83,7 +83,7 @@ std::optional<std::string> MemoryGuard::exceeded() {
     std::ostringstream text;
     text << groups.rdbuf();
     const auto use = memory_of_group(folder_of_group(text.str(), "/sys/fs/cgroup"));
-    if (!use || static_cast<double>(use->used) < kMost * static_cast<double>(use->limit))
+    if (!use || static_cast<double>(use->used) < kMostMemory * static_cast<double>(use->limit))
         return near_ms_ = 0, std::nullopt;
     // Several processes may share the group: when one has left, there may be enough for the others.
     if (near_ms_ == 0) near_ms_ = now;

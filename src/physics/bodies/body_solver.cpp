@@ -7,7 +7,6 @@
 #include "physics/bodies/body_points.h"
 #include "physics/contact/friction_bounds.h"
 #include "physics/solver/newton.h"
-#include "physics/solver/sweeps_alone.h"
 
 namespace roboss {
 namespace {
@@ -28,11 +27,6 @@ int sweeps_to_start(std::size_t bodies) {
     return bodies < 64 ? 40 : 80;
 }
 
-/// Where no step of Newton's method follows.
-int sweeps_alone(std::size_t bodies) {
-    return bodies < 8 ? 12 : 40;
-}
-
 }  // namespace
 
 bool BodySolver::solve(const BodyPart& part, std::vector<double>& v, SolveReport& report, const Team& team) {
@@ -41,8 +35,7 @@ bool BodySolver::solve(const BodyPart& part, std::vector<double>& v, SolveReport
     position_ = part.problem.position;
     iterations_ = 0, swept_ = analysed_ = false;
     take(part, v);
-    const bool by_sweeps_alone = !position_ && sweeps_suffice(accuracy);
-    fill_ = sweeps_may_settle(accuracy) && !by_sweeps_alone ? find_fill() : Fill::kLittle;
+    fill_ = sweeps_may_settle(accuracy) ? find_fill() : Fill::kLittle;
     bool balances = position_ ? settle_displacement(part) : settle_velocities(accuracy);
     if (!balances) {
         prepare_factor();
@@ -203,16 +196,13 @@ void BodySolver::take_swept() {
 /// The velocities by sweeps, if these are the solution.
 bool BodySolver::settle_velocities(const Accuracy& accuracy) {
     const std::size_t bodies = island_.bodies.size();
-    const bool alone = bodies > 1 && sweeps_suffice(accuracy);
-    if (!alone) {
-        residual_ = kernel_.balance(island_);
-        if (bodies == 1 || residual_ <= newton::kRoughly) return false;
-    }
-    const int most = alone ? sweeps_alone(bodies) : sweeps_to_start(bodies);
+    residual_ = kernel_.balance(island_);
+    if (bodies == 1 || residual_ <= newton::kRoughly) return false;
+    const int most = sweeps_to_start(bodies);
     keep_start();
-    const bool is_pile = !alone && bodies >= kPile;
-    const SweepReport report = sweep(is_pile ? pile_plan(accuracy, most, fill_) : SweepPlan{.most = most});
-    if (!swept_ || !(alone || report.settled || fill_ == Fill::kMuch)) return false;
+    const SweepReport report =
+        sweep(bodies >= kPile ? pile_plan(accuracy, most, fill_) : SweepPlan{.most = most});
+    if (!swept_ || !(report.settled || fill_ == Fill::kMuch)) return false;
     take_swept();
     iterations_ += report.iterations();
     return true;

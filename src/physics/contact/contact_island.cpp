@@ -233,12 +233,6 @@ void take_mean_displacement(std::span<const RobotWork> robots, IslandScratch& s,
         s.displacement[i] = even ? 0.5 * (s.v_before[i] + s.v[i]) : s.v[i];
 }
 
-/// False for what the second look cannot compute with: it ends the run, or soon will.
-bool is_plausible(std::span<const double> x) {
-    constexpr double kMost = 1e7;  // m, rad, m/s, rad/s
-    return std::ranges::all_of(x, [](double each) { return std::fabs(each) < kMost; });
-}
-
 /// From now on no contact asks for more than the displacement gives, and friction is that of the velocities.
 void hold_displacement(IslandScratch& s, bool split) {
     for (ContactRow& row : s.rows.contacts) {
@@ -396,6 +390,8 @@ ContactIsland::ContactIsland(const Model& model, std::span<RobotWork> robots,
 }
 
 void ContactIsland::build_rows() {
+    is_soft_ = take_soft();
+    if (is_soft_) return;
     needs_displacement_ = gather_island(model_, robots_, s_, members_, s_.group.contacts);
     s_.v_before = s_.v;
     ROBOSS_CHECK(
@@ -405,8 +401,9 @@ void ContactIsland::build_rows() {
 }
 
 void ContactIsland::solve_velocities() {
-    const IslandSolver::Problem problem{model_.accuracy, s_.robots, s_.offsets, s_.rows};
     iterations_before_ = report_.iterations;
+    if (is_soft_) return solve_soft();
+    const IslandSolver::Problem problem{model_.accuracy, s_.robots, s_.offsets, s_.rows};
     const SolveReport solved = s_.solver.solve(problem, s_.v, s_.team);
     largest_part_ = s_.solver.largest_part();
     if (s_.group.profiles_solver) s_.solver.profile_friction(problem, report_.profile.solver);
@@ -420,6 +417,7 @@ void ContactIsland::solve_velocities() {
 }
 
 void ContactIsland::solve_displacements() {
+    if (is_soft_) return;
     if (needs_displacement_) {
         s_.displacement = s_.v;
         for (ContactRow& row : s_.rows.contacts) turn_to_displacement(row);
@@ -431,18 +429,26 @@ void ContactIsland::solve_displacements() {
     mark_pushed(robots_, s_);
     stop_late_hits(model_, robots_, s_, members_, needs_displacement_, report_);
     mark_touched(robots_, s_);
-    if (!s_.group.profiles_solver) return;
+    if (s_.group.profiles_solver) profile_island(largest_part_);
+}
+
+void ContactIsland::profile_island(int largest_part) {
     SolverProfile& profile = report_.profile.solver;
-    profile.add_island(members_.size(), static_cast<std::size_t>(largest_part_),
+    profile.add_island(members_.size(), static_cast<std::size_t>(largest_part),
                        report_.iterations - iterations_before_);
     if (members_.size() > 1)
-        profile.most_contacts = std::max<std::uint64_t>(profile.most_contacts, s_.rows.contacts.size());
+        profile.most_contacts = std::max<std::uint64_t>(profile.most_contacts, s_.contacts.size());
 }
 
 void ContactIsland::integrate() {
     if (!has_rows_) {
         RobotWork& work = robots_[members_[0]];
         if (work.type->nv > 0) advance_freely(model_, work, s_.free_buffer);
+        return;
+    }
+    if (is_soft_) {
+        guards_energy_ = s_.soft_guard.start(soft_island(), s_.free_buffer.work);
+        s_.soft.move(soft_island(), s_.free_buffer);
         return;
     }
     s_.gained_moment = {};
@@ -453,6 +459,10 @@ void ContactIsland::integrate() {
 
 void ContactIsland::guard() {
     if (!has_rows_) return;
+    if (is_soft_) {
+        if (guards_energy_) s_.soft_guard.finish(soft_island(), s_.free_buffer.work);
+        return;
+    }
     const auto moved_well = [&](std::uint32_t m) {
         return is_plausible(robots_[m].state->q) && is_plausible(robots_[m].state->v);
     };

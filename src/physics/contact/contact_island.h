@@ -2,9 +2,18 @@
 // is solved by itself, so nothing depends on the other robots of the group.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
+
 #include "physics/island_scratch.h"
 
 namespace roboss {
+
+/// False for what the second look cannot compute with: it ends the run, or soon will.
+inline bool is_plausible(std::span<const double> x) {
+    constexpr double kMost = 1e7;  // m, rad, m/s, rad/s
+    return std::ranges::all_of(x, [](double each) { return std::fabs(each) < kMost; });
+}
 
 /// The stages of an island, called by step_robots (tick.h) in the order in which they are declared. Rows,
 /// velocities and displacements pass from stage to stage in the scratch.
@@ -28,6 +37,12 @@ class ContactIsland {
     void put_to_sleep();
 
   private:
+    // soft_island.cpp
+    bool take_soft();
+    void solve_soft();
+    bool find_soft_hits(std::size_t found, bool first);
+    soft::Island soft_island() { return {model_, robots_, members_, s_.contacts, s_.surfaces}; }
+    void profile_island(int largest_part);
     void close_bonds();
 
     const Model& model_;
@@ -36,6 +51,7 @@ class ContactIsland {
     IslandScratch& s_;
     StepReport& report_;
     bool has_rows_ = true;
+    bool is_soft_ = false;             // solved by soft substeps (soft/soft_solver.h)
     bool needs_displacement_ = false;  // it is solved for by itself
     bool drifts_ = false;              // a member takes the kick-drift step
     bool is_tied_ = false;             // a bond joins it to scenery, or to what does not move freely

@@ -54,6 +54,34 @@ double speed_of(const Course& c) {
     return norm(c.velocity(c.X.p, 0)) + c.turning;
 }
 
+/// m: no ball inside the shape is larger across; 0: not known.
+double thickness_of(const Shape& shape) {
+    switch (shape.kind) {
+        case ShapeKind::kBox:
+        case ShapeKind::kEllipsoid:
+            return 2 * std::min({shape.half.x, shape.half.y, shape.half.z});
+        case ShapeKind::kSphere:
+        case ShapeKind::kCapsule:
+            return 2 * shape.radius;
+        case ShapeKind::kCylinder:
+            return 2 * std::min(shape.radius, shape.half_length);
+        case ShapeKind::kHull:
+            return 2 * shape.hull->inradius;
+        case ShapeKind::kPlane:
+        case ShapeKind::kSurface:
+            break;
+    }
+    return 0;
+}
+
+/// True if shapes may come so deep into each other in one tick that they would be pushed out on the other
+/// side.
+bool may_go_through(const Course& a, const Course& b, double dt) {
+    constexpr double kShare = 0.25;  // of the thinner one
+    return (speed_of(a) + speed_of(b)) * dt >
+           kShare * std::min(thickness_of(*a.shape), thickness_of(*b.shape));
+}
+
 /// 1/kg: how easily a robot is moved as a whole; 0 if it stands on a fixed base.
 double inverse_mass_of(const RobotWork& robot) {
     if (!robot.type->free_base) return 0;
@@ -156,6 +184,7 @@ void SecondLook::find_missed(const SolvedIsland& island, const NearMiss& pair) {
     if (!is_bent(island, pair.robot_a) && !is_bent(island, pair.robot_b)) return;
     const Course a = course(island, pair.robot_a, pair.shape_a);
     const Course b = course(island, pair.robot_b, pair.shape_b);
+    if (island.passing_only && !may_go_through(a, b, model.dt_s)) return;
     if (b.shape->kind == ShapeKind::kSurface) {
         const double margin = speed_of(a) * model.dt_s + 2 * kBaseMargin;
         hold_planes(island, pair);
@@ -325,7 +354,7 @@ bool SecondLook::start(const SolvedIsland& island) {
         const auto displacement =
             island.displacement.subspan(static_cast<std::size_t>(island.offsets[m]), nv);
         is_moved_[m] = 0;
-        turns_[m] = may_turn_far(type, displacement, island.model.dt_s);
+        turns_[m] = !island.passing_only && may_turn_far(type, displacement, island.model.dt_s);
         struck_[m] = island.members.size() > 1 && is_pushed(island, static_cast<int>(m)) &&
                      is_struck(island.robots[m], displacement, island.model.dt_s);
         any |= turns_[m] != 0 || struck_[m] != 0 || !misses_of(m, island.near_misses).empty();
@@ -342,7 +371,7 @@ bool SecondLook::find(const SolvedIsland& island, bool first) {
     for (const std::uint32_t m : island.members)
         if (struck_[m] != 0) find_struck(island, m);
     const auto turns = [&](int robot) { return robot >= 0 && turns_[static_cast<std::size_t>(robot)] != 0; };
-    for (std::size_t c = 0; c < island.contacts.size();) {
+    for (std::size_t c = 0; !island.passing_only && c < island.contacts.size();) {
         const Contact& contact = *island.contacts[c];
         std::size_t end = c + 1;
         while (end < island.contacts.size() && pair_of(*island.contacts[end]) == pair_of(contact)) ++end;

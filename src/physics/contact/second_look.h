@@ -30,6 +30,8 @@ struct SolvedIsland {
     std::span<const char> large_turns;         // by member: a lone body that turns far in the tick
     bool anchored = false;                     // something pushes it that does not move freely
     FreeCourses& free_courses;                 // of the group
+    // Only shapes that may go through each other are looked at: what sinks in a little is pushed out later.
+    bool passing_only = false;
 };
 
 class SecondLook {

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "physics/solver/sweeps_alone.h"
+#include "physics/solver/fast_accuracy.h"
 
 namespace roboss {
 namespace {
@@ -36,7 +36,7 @@ void IslandSolver::solve_any(const Problem& p, std::vector<double>& v, Report& r
     plan_ = piled ? kPilePlan : p.robots.size() > 1 ? kCrowdPlan : newton::Plan{};
     start(p, v);
     friction::keep_bounds(p.rows, start_bounds_);
-    if (piled && !p.position && p.rows.couplings.empty() && sweeps_suffice(p.accuracy))
+    if (piled && !p.position && p.rows.couplings.empty() && is_fast(p.accuracy))
         return take_sweeps(p, v, report);
     if (piled) {
         if (p.position ? displace(p, v, report) : solve_by_sweeps(p, v, report)) return;

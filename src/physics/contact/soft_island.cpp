@@ -1,0 +1,76 @@
+// What a contact island does where soft substeps solve it (soft/soft_solver.h).
+#include "physics/contact/contact_island.h"
+
+namespace roboss {
+namespace {
+
+/// True if what materials make of contact `c` is what they made of the one before it.
+bool shares_surfaces(const Contact& before, const SurfacePair& surface, const Contact& c) {
+    return before.robot_a == c.robot_a && before.robot_b == c.robot_b && before.shape_a == c.shape_a &&
+           before.shape_b == c.shape_b && before.normal == c.normal && surface.torsional == 0 &&
+           !surface.moves();
+}
+
+}  // namespace
+
+/// True where soft substeps solve the island; then it has no rows.
+bool ContactIsland::take_soft() {
+    if (!s_.bonds.empty() || !soft::can_solve(model_, robots_, members_)) return false;
+    s_.surfaces.clear();
+    for (const std::uint32_t m : members_)
+        for (Contact& c : contacts_of(m, s_.group.contacts)) {
+            const bool goes_on =
+                !s_.contacts.empty() && shares_surfaces(*s_.contacts.back(), s_.surfaces.back(), c);
+            const SurfacePair surface = goes_on ? s_.surfaces.back() : surface_of(model_, robots_, c);
+            if (!soft::can_solve(c, surface)) return s_.contacts.clear(), false;
+            s_.contacts.push_back(&c), s_.surfaces.push_back(surface);
+        }
+    if (!s_.contacts.empty() && s_.soft.take(soft_island())) return true;
+    return s_.contacts.clear(), false;
+}
+
+/// Solves, looks for what the motion hits besides its contacts, and solves again with that.
+void ContactIsland::solve_soft() {
+    constexpr int kRounds = 3;
+    const std::size_t found = s_.contacts.size();
+    s_.look.clear();
+    for (int round = 0;; ++round) {
+        s_.soft.solve(soft_island(), s_.team);
+        s_.soft.mark_pushed();
+        ++report_.iterations;
+        if (round == kRounds || !find_soft_hits(found, round == 0)) break;
+        s_.contacts.resize(found), s_.surfaces.resize(found);
+        for (Contact& hit : s_.look.hits())
+            s_.contacts.push_back(&hit), s_.surfaces.push_back(surface_of(model_, robots_, hit));
+        s_.soft.take(soft_island());
+    }
+    s_.soft.give_impulses(soft_island());
+    if (s_.group.profiles_solver) profile_island(static_cast<int>(members_.size()));
+}
+
+/// What the solved motion hits that it did not touch; false if there is nothing.
+bool ContactIsland::find_soft_hits(std::size_t found, bool first) {
+    s_.offsets_of_group.resize(robots_.size());
+    int size = 0;
+    for (const std::uint32_t m : members_) s_.offsets_of_group[m] = size, size += robots_[m].type->nv;
+    s_.v.resize(static_cast<std::size_t>(size)), s_.displacement.resize(s_.v.size());
+    s_.soft.give_motion(soft_island(), s_.offsets_of_group, s_.v, s_.displacement);
+    if (!is_plausible(s_.displacement)) return false;
+    s_.drifts.assign(members_.size(), 0), s_.large_turns.assign(members_.size(), 0);
+    const SolvedIsland island{model_,
+                              robots_,
+                              members_,
+                              s_.offsets_of_group,
+                              s_.group.near_misses,
+                              {s_.contacts.data(), found},
+                              s_.v,
+                              s_.displacement,
+                              s_.drifts,
+                              s_.large_turns,
+                              false,
+                              *s_.group.free_courses,
+                              true};
+    return s_.look.find(island, first);
+}
+
+}  // namespace roboss

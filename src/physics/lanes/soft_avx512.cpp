@@ -1,0 +1,15 @@
+// The soft solver with AVX512. Built for that instruction set alone (layer.cmake): nothing in here may run
+// before the processor has been asked (soft::kernel).
+#include "physics/lanes/lane_soft.h"
+
+namespace roboss::soft {
+
+std::unique_ptr<Kernel> make_avx512_kernel() {
+#if defined(__AVX512F__)
+    return std::make_unique<LaneSoft>();
+#else
+    return nullptr;
+#endif
+}
+
+}  // namespace roboss::soft
