@@ -6,7 +6,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::sync::{Arc, Mutex};
 use std::time::{Duration, Instant};
 
-use futures::{FutureExt, future};
+use futures::FutureExt;
 use messages::*;
 use ros2_client::action::{ActionClient, ActionClientQosPolicies};
 use ros2_client::rcl_interfaces::{GetParametersRequest, GetParametersResponse};
@@ -21,11 +21,22 @@ const PATIENCE: Duration = Duration::from_secs(20);
 const PAUSED: u8 = 2;
 const PLAYING: u8 = 1;
 
-/// The value of a future, or None where it takes too long.
-async fn in_time<T>(wanted: impl Future<Output = T>) -> Option<T> {
+/// The value of a future, or None where it takes too long; standard error has its name then.
+async fn in_time<T>(name: &str, wanted: impl Future<Output = T>) -> Option<T> {
     futures::select! {
         value = Box::pin(wanted.fuse()) => Some(value),
-        _ = FutureExt::fuse(smol::Timer::after(PATIENCE)) => None,
+        _ = FutureExt::fuse(smol::Timer::after(PATIENCE)) => {
+            eprintln!("rust_visitor: in vain: {name}");
+            None
+        }
+    }
+}
+
+/// Waits until two ends have met. In ros2-client 0.12.1 this sometimes does not see that they have: 2 s are enough.
+async fn meet(met: impl Future<Output = ()>) {
+    futures::select! {
+        _ = Box::pin(met.fuse()) => (),
+        _ = FutureExt::fuse(smol::Timer::after(Duration::from_secs(2))) => (),
     }
 }
 
@@ -96,8 +107,8 @@ impl Visitor {
                 reliable(),
             )
             .expect("a client");
-        in_time(client.wait_for_service(&self.node)).await?;
-        in_time(client.async_call_service(request)).await?.ok()
+        meet(client.wait_for_service(&self.node)).await;
+        in_time(&format!("reply of {kind}"), client.async_call_service(request)).await?.ok()
     }
 
     async fn simulation<Q: Message + Clone + 'static, R: Message + Clone + 'static>(
@@ -141,27 +152,22 @@ impl Visitor {
                 },
             )
             .expect("a client of an action");
-        in_time(future::join(
-            future::join(
-                action.goal_client().wait_for_service(&self.node),
-                action.result_client().wait_for_service(&self.node),
-            ),
-            future::join(
-                action.cancel_client().wait_for_service(&self.node),
-                action.feedback_subscription().wait_for_publisher(&self.node),
-            ),
-        ))
-        .await?;
-        let (goal, sent) = in_time(action.async_send_goal(Steps { steps: 500 })).await?.ok()?;
-        let (status, result) = in_time(action.async_request_result(goal)).await?.ok()?;
+        meet(action.goal_client().wait_for_service(&self.node)).await;
+        meet(action.result_client().wait_for_service(&self.node)).await;
+        meet(action.cancel_client().wait_for_service(&self.node)).await;
+        meet(action.feedback_subscription().wait_for_publisher(&self.node)).await;
+        let (goal, sent) = in_time("goal", action.async_send_goal(Steps { steps: 500 })).await?.ok()?;
+        let (status, result) = in_time("result", action.async_request_result(goal)).await?.ok()?;
         let mut sums = BTreeSet::new();
         while let Ok(Some(step)) = action.receive_feedback(goal) {
             sums.insert(step.completed_steps + step.remaining_steps);
         }
-        let (long_goal, long) = in_time(action.async_send_goal(Steps { steps: 1_000_000_000 })).await?.ok()?;
+        let (long_goal, long) =
+            in_time("second goal", action.async_send_goal(Steps { steps: 1_000_000_000 })).await?.ok()?;
         let stamp = ros2_client::builtin_interfaces::Time::ZERO;
-        let cancel = in_time(action.async_cancel_goal(long_goal, stamp)).await?.ok()?;
-        let (cancelled, _) = in_time(action.async_request_result(long_goal)).await?.ok()?;
+        let cancel = in_time("cancel", action.async_cancel_goal(long_goal, stamp)).await?.ok()?;
+        let (cancelled, _) =
+            in_time("result of the cancelled goal", action.async_request_result(long_goal)).await?.ok()?;
         let play: SetStateReply =
             self.simulation("/set_simulation_state", "SetSimulationState", SetState { state: PLAYING }).await?;
         Some(json!({
@@ -177,7 +183,7 @@ async fn listen<M: Message + 'static>(subscription: &Subscription<M>, mut enough
     let mut seen = Vec::new();
     let end = Instant::now() + PATIENCE;
     while Instant::now() < end {
-        let Some(Ok((message, _))) = in_time(subscription.async_take()).await else { break };
+        let Some(Ok((message, _))) = in_time("message", subscription.async_take()).await else { break };
         let done = enough(&message);
         seen.push(message);
         if done {
@@ -199,7 +205,7 @@ async fn visit(robot: &str) -> Value {
     let scan = listen(&scans, |_| true).await;
     let seconds = began.elapsed().as_secs_f64();
     let start = listen(&odometry, |_| true).await;
-    let _ = in_time(drive.wait_for_subscription(&visitor.node)).await;
+    meet(drive.wait_for_subscription(&visitor.node)).await;
     let order = Twist { linear: Vector3 { x: 0.2, ..Default::default() }, ..Default::default() };
     let _ = drive.publish(order);
     let mut fast_since = None;
