@@ -57,6 +57,9 @@ function(roboss_module_layer name depends)
   if(ROBOSS_TESTS AND tests)
     add_executable(${target}_test ${tests})
     roboss_test_options(${target}_test)
+    # External libraries bring definitions of their own (_FILE_OFFSET_BITS with Fast DDS 3.1), with which g++ refuses
+    # headers that were parsed without them.
+    set_target_properties(${target}_test PROPERTIES DISABLE_PRECOMPILE_HEADERS ON)
     target_link_libraries(${target}_test PRIVATE ${target}_objects roboss_options GTest::gtest_main)
     target_include_directories(${target}_test PRIVATE ${CMAKE_SOURCE_DIR}/tests)
     roboss_discover_tests(${target}_test ${name})

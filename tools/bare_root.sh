@@ -99,7 +99,18 @@ copy_settings() {
     keep /etc/ssl/certs/ca-certificates.crt /usr/local/share/ca-certificates/*.crt
 }
 
-# The files that git lists or does not ignore; those of an earlier copy that are gone since are removed.
+# fingerprints FOLDER <NAMES: a record for the content of each file, and one for its mode.
+fingerprints() {
+    local names
+    names=$(mktemp)
+    cat >"$names"
+    (cd "$1" && { xargs -0 sha256sum --zero -- <"$names" || true; xargs -0 stat --printf='%064f  %n\0' -- <"$names" || true; }) 2>/dev/null
+    rm -f "$names"
+}
+
+# The files that git lists or does not ignore; those of an earlier copy that are gone since are removed. Those that changed
+# are as new as this copy: an object that was built of an earlier one, after the change, must not count as newer. The
+# others keep their time, so that a fresh checkout causes no build.
 copy_repository() {
     local list=$root/root/.roboss_files new
     new=$(mktemp)
@@ -113,7 +124,9 @@ copy_repository() {
     if [[ -f $list ]]; then
         comm -z -23 "$list" "$list.new" | (cd "$root/$copy" && xargs -0 --no-run-if-empty rm -f)
     fi
-    tar -C "$here/.." --no-recursion --null -T "$list.new" -cf - | tar -C "$root/$copy" --no-same-owner -xf -
+    comm -z -23 <(fingerprints "$here/.." <"$list.new" | sort -z) <(fingerprints "$root/$copy" <"$list.new" | sort -z) |
+        cut -z -c 67- | sort -zu |
+        tar -C "$here/.." --no-recursion --null -T - -cf - | tar -C "$root/$copy" --no-same-owner --touch -xf -
     mv "$list.new" "$list"
 }
 

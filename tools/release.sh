@@ -28,6 +28,10 @@ cp -a "$work/$name/." "$deb/usr"
 gzip -9n <"$deb/usr/share/doc/roboss/CHANGELOG.md" >"$deb/usr/share/doc/roboss/changelog.gz"
 mv "$deb/usr/share/doc/roboss/LICENSE" "$deb/usr/share/doc/roboss/copyright"
 rm "$deb/usr/share/doc/roboss/CHANGELOG.md"
+licences=$deb/usr/share/doc/roboss/licences
+mkdir "$licences"
+PYTHONPATH=tools python3 -B -c 'import sys, pathlib, debian_licences; debian_licences.copy_licences_of_headers(pathlib.Path(sys.argv[1]))' \
+    "$licences"
 printf 'Source: roboss\n\nPackage: roboss\nArchitecture: any\n' >"$work/debian/control"
 # Fast DDS is recommended: only the process that talks to nodes of ROS 2 loads it.
 fastdds=deb/usr/lib/roboss/libroboss_fastdds.so

@@ -1,7 +1,7 @@
 // Bundles the page into the folder given: `node build.mjs FOLDER`. With --tests, the mock gateway and the tests are
 // bundled too, into FOLDER/../web-tests, where Debian's node runs them as they are.
 import { build } from "esbuild";
-import { cp, mkdir, readdir, rm } from "node:fs/promises";
+import { cp, mkdir, readdir, readFile, rm, writeFile } from "node:fs/promises";
 import { dirname, join, resolve } from "node:path";
 import { fileURLToPath } from "node:url";
 
@@ -24,6 +24,14 @@ async function buildPage() {
     });
     await cp(join(here, "index.html"), join(folder, "index.html"));
     await cp(join(here, "icon.svg"), join(folder, "icon.svg"));
+}
+
+// The licences of the packages whose code is in the page.
+async function writeLicences() {
+    const { dependencies } = JSON.parse(await readFile(join(here, "package.json"), "utf8"));
+    const licence = async (name) => `${name}\n\n${await readFile(join(here, "node_modules", name, "LICENSE"), "utf8")}`;
+    const all = await Promise.all(Object.keys(dependencies).map(licence));
+    await writeFile(join(folder, "licences.txt"), all.join("\n"));
 }
 
 async function bundleFor(node, names, target) {
@@ -50,6 +58,7 @@ async function named(folder, ending) {
 }
 
 await buildPage();
+await writeLicences();
 if (flags.includes("--tests")) {
     // Beside node_modules, so that the bundles find what is left out of them.
     const tests = join(here, ".tests");

@@ -86,7 +86,9 @@ def branched(tmp_path_factory):
     path, name = folder / "branched.journal", f"branched_{os.getpid()}"
     command = [ROBOSS, "run", REPOSITORY / "worlds/crossroads.sdf", "--headless", "--quiet", "--paused", "--simulation", name,
                "--journal", path]
-    with subprocess.Popen(list(map(str, command)), stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL) as process:
+    with (subprocess.Popen(list(map(str, command)), stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL) as process,
+          contextlib.ExitStack() as at_the_end):
+        at_the_end.callback(process.kill)  # it is paused, and a failure here would wait for it
         def ask(*words):
             done = subprocess.run([ROBOSS, "control", "--simulation", name, "--patience", "30", "--json", *map(str, words)],
                                   capture_output=True, text=True, check=True)
@@ -102,6 +104,7 @@ def branched(tmp_path_factory):
         ask("rewind", 0.5)
         to(500)
         ask("quit")
+        process.wait(timeout=60)
     return path
 
 

@@ -1,4 +1,5 @@
 """`python -m roboss` and the script `roboss` of the wheel: the program of the build, in an environment of its own."""
+import contextlib
 import json
 import re
 import signal
@@ -40,7 +41,9 @@ def test_a_run_has_the_hash_of_a_simulation(command, tmp_path):
 
 
 def test_serves_the_viewer_s_page_and_ends_by_ctrl_c(command):
-    with subprocess.Popen([*command, "run", WORLD], stderr=subprocess.PIPE, text=True) as run:
+    with (subprocess.Popen([*command, "run", WORLD], stderr=subprocess.PIPE, text=True) as run,
+          contextlib.ExitStack() as at_the_end):
+        at_the_end.callback(run.kill)  # it has no end of its own, for which a failure here would wait
         url = next(found.group() for line in run.stderr if (found := re.search(r"http://127\S+", line)))
         with urllib.request.urlopen(url) as page:
             assert "page.js" in page.read().decode()

@@ -18,7 +18,8 @@ def test_has_types_and_licences(clean_python):
     package = Path(subprocess.run([clean_python, "-I", "-c", "import roboss; print(roboss.__path__[0])"],
                                   capture_output=True, text=True, check=True).stdout.strip())
     assert (package / "py.typed").exists() and "class Simulation" in (package / "_core.pyi").read_text()
-    assert {"roboss.txt", "libpugixml1v5.txt"} <= {path.name for path in (package / "licences").iterdir()}
+    licences = {path.name for path in (package / "licences").iterdir()}
+    assert {"roboss.txt", "libpugixml1v5.txt", "libcli11-dev.txt", "nanobind.txt"} <= licences
 
 
 def test_environments_without_their_extra_say_what_is_missing(clean_python):

@@ -152,11 +152,13 @@ si::Result failure_of(const ControlOutcome& outcome) {
 
 void step_run(const SimulationContext& c, std::uint64_t ticks,
               const std::function<void(std::uint64_t)>& progress,
-              const std::function<void(const si::Result&)>& then) {
+              const std::function<void(const si::Result&)>& then, const std::function<bool()>& is_cancelled) {
     if (ticks > kMostTicks) return then(result_of(si::Result::kOperationFailed, "too many steps"));
-    c.waits.ask_status([c, ticks, progress, then](const RunStatus* status) {
+    c.waits.ask_status([c, ticks, progress, then, is_cancelled](const RunStatus* status) {
         if (status == nullptr) return then(result_of(si::Result::kOperationFailed, "the run did not answer"));
         if (!status->paused) return then(result_of(si::Result::kOperationFailed, "the run is not paused"));
+        if (is_cancelled())
+            return then(result_of(si::Result::kOperationFailed, "cancelled before the first step"));
         if (ticks == 0) return then(fine());
         const auto stepping = std::make_shared<Stepping>(Stepping{status->tick, ticks, 0, progress, then});
         c.waits.ask(StepRun{static_cast<Tick>(ticks)}, [c, stepping](const ControlOutcome& outcome) {

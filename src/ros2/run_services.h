@@ -19,10 +19,12 @@ struct RunMemory {
 std::uint8_t simulation_state(const RunStatus& status, const RunMemory& memory);
 
 /// Lets a paused run advance by so many ticks, and calls `then` when it is paused again. `progress` gets the
-/// ticks that are done, now and then.
-void step_run(const SimulationContext& c, std::uint64_t ticks,
-              const std::function<void(std::uint64_t)>& progress,
-              const std::function<void(const simulation_interfaces::Result&)>& then);
+/// ticks that are done, now and then. `is_cancelled` is asked once, when the run is found paused; if it is
+/// true there, the run does not advance.
+void step_run(
+    const SimulationContext& c, std::uint64_t ticks, const std::function<void(std::uint64_t)>& progress,
+    const std::function<void(const simulation_interfaces::Result&)>& then,
+    const std::function<bool()>& is_cancelled = [] { return false; });
 
 /// GetSimulatorFeatures, GetSimulationState, SetSimulationState, StepSimulation. `memory` outlives them.
 void add_run_services(const SimulationContext& c, RunMemory& memory);

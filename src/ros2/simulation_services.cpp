@@ -49,10 +49,12 @@ class StepsAction {
                             : cancelled_ ? GoalStatus::kCanceled
                                          : GoalStatus::kAborted,
                             {result});
-            });
+            },
+            [this] { return cancelled_; });
         return true;
     }
-    /// The run is paused where it is; step_run() finds it there.
+    /// The run is paused where it is, and step_run() finds it there. Before the first step it is paused
+    /// already: step_run() asks for that.
     void cancel() {
         cancelled_ = true;
         context_.waits.ask(PauseRun{}, [](const ControlOutcome&) {});

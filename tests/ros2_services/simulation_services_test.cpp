@@ -113,6 +113,24 @@ TEST(SimulationServices, SimulateStepsReportsAndCanBeCancelled) {
               ros2::CancelGoal::Response::kGoalTerminated);
 }
 
+TEST(SimulationServices, ACancelEndsStepsHoweverFarTheyAre) {
+    for (int turns = 0; turns < 6; ++turns) {
+        TestRun run(ball_and_arm());
+        ros2::SendGoal<si::SimulateSteps>::Request goal;
+        goal.goal_id.uuid[0] = 1, goal.goal.steps = 1'000'000;
+        run.transport.call("/simulate_steps/_action/send_goal", ros2::to_cdr(goal));
+        for (int turn = 0; turn < turns; ++turn) run.turn();
+        ros2::CancelGoal::Request cancel;
+        cancel.goal_info.goal_id = goal.goal_id;
+        const auto cancelled = run.call<ros2::CancelGoal>("/simulate_steps/_action/cancel_goal", cancel);
+        EXPECT_EQ(cancelled.goals_canceling.size(), 1u);
+        const auto end = run.call<ros2::GetResult<si::SimulateSteps>>("/simulate_steps/_action/get_result",
+                                                                      {goal.goal_id});
+        EXPECT_EQ(end.status, ros2::GoalStatus::kCanceled) << "cancelled after " << turns << " turns";
+        EXPECT_TRUE(run.paused());
+    }
+}
+
 TEST(SimulationServices, EntitiesComeAndGo) {
     TestRun run(ball_and_arm());
     EXPECT_EQ(entities(run), (std::vector<std::string>{"ball", "arm"}));

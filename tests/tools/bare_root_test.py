@@ -135,6 +135,21 @@ class BareRoot(Tree):
         self.assertEqual((copy / "a.txt").read_text(), "changed")
         self.assertEqual(sorted(p.name for p in copy.rglob("*") if p.is_file()), ["a.txt", "made", "new name.txt"])
 
+    def test_what_changed_is_new_and_the_rest_keeps_its_time(self):
+        copy, long_ago = self.root / "root/roboss", 10**9
+        (self.tree / "folder/b.txt").chmod(0o644)
+        self.assertEqual(self.make()[0], 0)
+        os.utime(copy / "folder/b.txt", (long_ago, long_ago))
+        self.files({"a.txt": "edited while a build read it", "folder/b.txt": "two"})
+        os.utime(self.tree / "a.txt", (long_ago, long_ago))
+        (copy / "object").write_text("of the first one")
+        self.assertEqual(self.make()[0], 0)
+        self.assertGreaterEqual((copy / "a.txt").stat().st_mtime, (copy / "object").stat().st_mtime)
+        self.assertEqual((copy / "folder/b.txt").stat().st_mtime, long_ago)
+        (self.tree / "folder/b.txt").chmod(0o755)
+        self.assertEqual(self.make()[0], 0)
+        self.assertEqual((copy / "folder/b.txt").stat().st_mode & 0o777, 0o755)
+
     def test_the_exit_code_is_that_of_the_command(self):
         self.program(self.bin / "unshare", '[[ ${!#} == true ]] || exit 7')
         self.assertEqual(self.make("bookworm", self.root, "ls")[0], 7)

@@ -24,7 +24,7 @@ try:
     from roboss.analysis.command import main
 except ImportError as missing:
     sys.stderr.write(f"""roboss: '{sys.argv[1]}' needs the Python package 'roboss', which {sys.executable} does not have ({missing}) [no-package]
-  remedy: make it by tools/build_wheel.sh, install it by `pip install 'dist/roboss-...whl[analysis]'`, and set ROBOSS_PYTHON to that Python
+  remedy: `pip install 'roboss-...whl[analysis]'` with the wheel of this version (tools/build_wheel.sh makes it in dist/), and set ROBOSS_PYTHON to that Python
 """)
     sys.exit(1)
 main(sys.argv[1:]))";
