@@ -9,6 +9,8 @@
 #include "physics/contact/surface_pair.h"
 #include "physics/dynamics/robot_work.h"
 #include "physics/dynamics/tree_factor.h"
+#include "physics/soft/soft_solver.h"
+#include "physics/solver/fast_accuracy.h"
 
 namespace roboss {
 namespace {
@@ -77,12 +79,13 @@ class StateCheck {
             if (!std::isfinite(motor.impulse) || !(std::fabs(motor.load) <= std::fabs(motor.impulse)))
                 return "a motor's warm-start impulse is " + std::to_string(motor.load) + " of " +
                        std::to_string(motor.impulse);
+        const double most_load = is_fast(model_.accuracy) ? soft::kSubsteps : 1;  // of the impulse
         for (std::size_t i = 0; i < state.contacts.size(); ++i) {
             const ContactMemory& contact = state.contacts[i];
             if (i > 0 && key_of(state.contacts[i - 1]) >= key_of(contact)) return "contacts are not sorted";
             if (!(contact.impulse > 0) || !std::isfinite(contact.impulse))
                 return "a contact's impulse is " + std::to_string(contact.impulse);
-            if (!(contact.load >= 0 && contact.load <= contact.impulse))
+            if (!(contact.load >= 0 && contact.load <= most_load * contact.impulse))
                 return "a contact's warm-start impulse is " + std::to_string(contact.load) + " of " +
                        std::to_string(contact.impulse);
             const double most = friction_coefficient(type, contact) * contact.impulse;

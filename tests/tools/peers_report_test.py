@@ -49,7 +49,7 @@ class PeersReport(unittest.TestCase):
     def test_a_second_table_compares_with_the_fastest_peer_that_is_right(self):
         self.report([row("RoBOSS", us_median=2.0), row("RoBOSS-float", us_median=1.0), row("ODE 0.16.2", us_median=35.0),
                      row("Bullet 3", us_median=40.0), row("DART 6", us_median=5.0, right=False)])
-        self.assertIn("| cars | 50 | ODE 0.16.2, 35.00 | 17.5 |  |  | 35.0 |  |", (self.folder / "page.md").read_text())
+        self.assertIn("| cars | 50 | ODE 0.16.2, 35.00 | 17.5 |  |  |  | 35.0 |  |", (self.folder / "page.md").read_text())
 
     def test_the_plot_is_well_formed(self):
         self.report([row("RoBOSS"), row("ODE <odd>", us_median=200.0)])

@@ -77,7 +77,7 @@ double thickness_of(const Shape& shape) {
 /// True if shapes may come so deep into each other in one tick that they would be pushed out on the other
 /// side.
 bool may_go_through(const Course& a, const Course& b, double dt) {
-    constexpr double kShare = 0.25;  // of the thinner one
+    constexpr double kShare = 0.1;  // of the thinner one
     return (speed_of(a) + speed_of(b)) * dt >
            kShare * std::min(thickness_of(*a.shape), thickness_of(*b.shape));
 }

@@ -9,6 +9,7 @@
 #include "core/lanes_x86.h"
 #include "physics/bodies/sweep_plan.h"
 #include "physics/lanes/lane_six.h"
+#include "physics/lanes/lane_transpose.h"
 
 namespace roboss {
 namespace {
@@ -86,43 +87,12 @@ class LaneSweeps {
 #endif
     }
 
-    /// Rows become columns.
-    [[gnu::always_inline]] static void transpose(Floats* r) {
-#if defined(__AVX2__)
-        Floats p[8], q[8];
-        for (std::size_t i = 0; i < 8; i += 2) {
-            p[i] = __builtin_shufflevector(r[i], r[i + 1], 0, 8, 1, 9, 4, 12, 5, 13);
-            p[i + 1] = __builtin_shufflevector(r[i], r[i + 1], 2, 10, 3, 11, 6, 14, 7, 15);
-        }
-        for (std::size_t i = 0; i < 8; i += 4)
-            for (std::size_t k = 0; k < 2; ++k) {
-                q[i + 2 * k] = __builtin_shufflevector(p[i + k], p[i + k + 2], 0, 1, 8, 9, 4, 5, 12, 13);
-                q[i + 2 * k + 1] =
-                    __builtin_shufflevector(p[i + k], p[i + k + 2], 2, 3, 10, 11, 6, 7, 14, 15);
-            }
-        for (std::size_t k = 0; k < 4; ++k) {
-            r[k] = __builtin_shufflevector(q[k], q[k + 4], 0, 1, 2, 3, 8, 9, 10, 11);
-            r[k + 4] = __builtin_shufflevector(q[k], q[k + 4], 4, 5, 6, 7, 12, 13, 14, 15);
-        }
-#else
-        Floats p[4];
-        for (std::size_t i = 0; i < 4; i += 2) {
-            p[i] = __builtin_shufflevector(r[i], r[i + 1], 0, 4, 1, 5);
-            p[i + 1] = __builtin_shufflevector(r[i], r[i + 1], 2, 6, 3, 7);
-        }
-        for (std::size_t k = 0; k < 2; ++k) {
-            r[2 * k] = __builtin_shufflevector(p[k], p[k + 2], 0, 1, 4, 5);
-            r[2 * k + 1] = __builtin_shufflevector(p[k], p[k + 2], 2, 3, 6, 7);
-        }
-#endif
-    }
-
     /// Between bodies' rows of six and lanes.
     [[gnu::always_inline]] static void gather(const SixFloats* bodies, const int* chosen, Floats* columns) {
         for (std::size_t k = 0; k < 6; k += kFloats) {
             Floats block[kFloats];
             for (std::size_t i = 0; i < kFloats; ++i) block[i] = load_floats(bodies[chosen[i]].x + k);
-            transpose(block);
+            transpose<kFloats>(block);
             for (std::size_t i = 0; i < kFloats && k + i < 6; ++i) columns[k + i] = block[i];
         }
     }
@@ -130,7 +100,7 @@ class LaneSweeps {
         for (std::size_t k = 0; k < 6; k += kFloats) {
             Floats block[kFloats];
             for (std::size_t i = 0; i < kFloats; ++i) block[i] = k + i < 6 ? columns[k + i] : Floats{};
-            transpose(block);
+            transpose<kFloats>(block);
             for (std::size_t i = 0; i < kFloats; ++i) store_floats(block[i], bodies[chosen[i]].x + k);
         }
     }

@@ -7,6 +7,7 @@
 #include "core/lanes_neon.h"
 #include "core/lanes_x86.h"
 #include "physics/lanes/lane_six.h"
+#include "physics/lanes/lane_transpose.h"
 #include "physics/soft/soft_kernel.h"
 
 namespace roboss {
@@ -35,40 +36,6 @@ namespace {
 #endif
 }
 
-/// Rows become columns.
-[[gnu::always_inline]] inline void transpose(Part* r) {
-#if defined(__AVX512F__)
-    Part p[8], q[8];
-    for (std::size_t i = 0; i < 8; i += 2) {
-        p[i] = __builtin_shufflevector(r[i], r[i + 1], 0, 8, 1, 9, 4, 12, 5, 13);
-        p[i + 1] = __builtin_shufflevector(r[i], r[i + 1], 2, 10, 3, 11, 6, 14, 7, 15);
-    }
-    for (std::size_t i = 0; i < 8; i += 4)
-        for (std::size_t k = 0; k < 2; ++k) {
-            q[i + 2 * k] = __builtin_shufflevector(p[i + k], p[i + k + 2], 0, 1, 8, 9, 4, 5, 12, 13);
-            q[i + 2 * k + 1] = __builtin_shufflevector(p[i + k], p[i + k + 2], 2, 3, 10, 11, 6, 7, 14, 15);
-        }
-    for (std::size_t k = 0; k < 4; ++k) {
-        r[k] = __builtin_shufflevector(q[k], q[k + 4], 0, 1, 2, 3, 8, 9, 10, 11);
-        r[k + 4] = __builtin_shufflevector(q[k], q[k + 4], 4, 5, 6, 7, 12, 13, 14, 15);
-    }
-#elif defined(__AVX2__)
-    Part p[4];
-    for (std::size_t i = 0; i < 4; i += 2) {
-        p[i] = __builtin_shufflevector(r[i], r[i + 1], 0, 4, 1, 5);
-        p[i + 1] = __builtin_shufflevector(r[i], r[i + 1], 2, 6, 3, 7);
-    }
-    for (std::size_t k = 0; k < 2; ++k) {
-        r[2 * k] = __builtin_shufflevector(p[k], p[k + 2], 0, 1, 4, 5);
-        r[2 * k + 1] = __builtin_shufflevector(p[k], p[k + 2], 2, 3, 6, 7);
-    }
-#else
-    const Part first = __builtin_shufflevector(r[0], r[1], 0, 2);
-    r[1] = __builtin_shufflevector(r[0], r[1], 1, 3);
-    r[0] = first;
-#endif
-}
-
 /// Six numbers of a body of each lane.
 struct Columns {
     Part x[6];
@@ -79,7 +46,7 @@ struct Columns {
     for (std::size_t k = 0; k < 6; k += kWidth) {
         Part block[kWidth];
         for (std::size_t i = 0; i < kWidth; ++i) block[i] = load_part(bodies[chosen[i]].x + k);
-        transpose(block);
+        transpose<kWidth>(block);
         for (std::size_t i = 0; i < kWidth && k + i < 6; ++i) columns.x[k + i] = block[i];
     }
     return columns;
@@ -88,7 +55,7 @@ struct Columns {
     for (std::size_t k = 0; k < 6; k += kWidth) {
         Part block[kWidth];
         for (std::size_t i = 0; i < kWidth; ++i) block[i] = k + i < 6 ? columns.x[k + i] : Part{};
-        transpose(block);
+        transpose<kWidth>(block);
         for (std::size_t i = 0; i < kWidth; ++i) store_part(block[i], bodies[chosen[i]].x + k);
     }
 }

@@ -13,7 +13,6 @@
 namespace roboss::soft {
 namespace {
 
-constexpr int kSubsteps = 4;
 /// Contacts recover as springs of this frequency, in substeps, and of this damping ratio: hard enough for
 /// piles, and so damped that nothing is thrown. Against scenery, which does not give way, twice as stiff.
 constexpr double kFrequency = 0.125, kDamping = 10;
@@ -118,9 +117,11 @@ std::span<const ContactMemory> memory_of(const Island& island, const Pair& pair)
     const std::uint32_t other =
         c.robot_b < 0 ? RobotId::kNone : island.robots[static_cast<std::size_t>(c.robot_b)].id.value;
     const auto key = [](const ContactMemory& m) { return std::tuple(m.other_robot, m.shape, m.other_shape); };
-    const auto found =
-        std::ranges::equal_range(a.state->contacts, std::tuple(other, c.shape_a, c.shape_b), {}, key);
-    return {found.begin(), found.end()};
+    const std::vector<ContactMemory>& all = a.state->contacts;
+    const std::tuple wanted(other, c.shape_a, c.shape_b);
+    const auto first = std::ranges::lower_bound(all, wanted, {}, key),
+               last = std::ranges::upper_bound(first, all.end(), wanted, {}, key);
+    return {first, last};
 }
 
 /// What a pair starts from: the impulses that the last tick ended with. Where the points have other names

@@ -17,6 +17,8 @@
 
 namespace roboss::soft {
 
+inline constexpr int kSubsteps = 4;  ///< of a tick
+
 /// Robots of a contact island, and their contacts in the order of their first robots.
 struct Island {
     const Model& model;
@@ -47,7 +49,8 @@ class Solver {
     void solve(const Island& island, const Team& team);
     /// Marks the robots that contacts push.
     void mark_pushed();
-    /// Writes the impulses into the contacts.
+    /// Writes the impulses into the contacts: `impulse` and `friction` are those of the tick, `load` is what
+    /// the last substep gave, times their number. Where a load grows, that is more than the impulse.
     void give_impulses(const Island& island) const;
     /// Velocities at the end of the tick and displacements over dt, from `offsets` on (by robot of the
     /// group).
