@@ -22,7 +22,7 @@ bool ContactIsland::take_soft() {
             const bool goes_on =
                 !s_.contacts.empty() && shares_surfaces(*s_.contacts.back(), s_.surfaces.back(), c);
             const SurfacePair surface = goes_on ? s_.surfaces.back() : surface_of(model_, robots_, c);
-            if (!soft::can_solve(c, surface)) return s_.contacts.clear(), false;
+            if (!soft::can_solve(model_, c, surface)) return s_.contacts.clear(), false;
             s_.contacts.push_back(&c), s_.surfaces.push_back(surface);
         }
     if (!s_.contacts.empty() && s_.soft.take(soft_island())) return true;

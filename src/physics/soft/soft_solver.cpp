@@ -28,11 +28,10 @@ Substep substep_of(double dt) {
     return {h, 0, softness(hertz, kDamping, h), softness(2 * hertz, kDamping / 2, h)};
 }
 
-/// One side of a pair: the body and which way the impulses push it.
+/// One side of a pair.
 struct Side {
     const Body* body = nullptr;  // nullptr: it does not move
-    Vec3 point;                  // where, world axes
-    double sign = 1;
+    Vec3 point;                  // where impulses push it, world axes
 };
 
 struct Sides {
@@ -45,6 +44,11 @@ struct Sides {
         return b.body == nullptr ? Vec3{} : b.body->turned_by(cross(b.point - b.body->centre, -direction));
     }
 };
+
+bool is_same_pair(const Contact& a, const Contact& b) {
+    return a.robot_a == b.robot_a && a.robot_b == b.robot_b && a.shape_a == b.shape_a &&
+           a.shape_b == b.shape_b;
+}
 
 void put(const Vec3& v, std::size_t lane, Eight* to) {
     to[0].x[lane] = v.x, to[1].x[lane] = v.y, to[2].x[lane] = v.z;
@@ -63,7 +67,8 @@ bool can_solve(const Model& model, std::span<const RobotWork> robots,
            std::ranges::all_of(members, [&](std::uint32_t m) { return may_be_soft(*robots[m].type); });
 }
 
-bool can_solve(const Contact& contact, const SurfacePair& surface) {
+bool can_solve(const Model& model, const Contact& contact, const SurfacePair& surface) {
+    if (contact.robot_b < 0 && model.statics[contact.shape_b].shape.kind == ShapeKind::kSurface) return false;
     return contact.robot_a != contact.robot_b && surface.rolling == 0 && surface.softness.stiffness == 0 &&
            surface.slip_11 == 0 && surface.slip_12 == 0 && surface.slip_22 == 0;
 }
@@ -87,8 +92,7 @@ bool Solver::take(const Island& island) {
 void Solver::list_pairs(const Island& island) {
     pairs_.clear();
     const auto goes_on = [](const Contact& first, const Contact& c) {
-        return c.robot_a == first.robot_a && c.robot_b == first.robot_b && c.shape_a == first.shape_a &&
-               c.shape_b == first.shape_b && c.normal == first.normal;
+        return is_same_pair(first, c) && c.normal == first.normal;
     };
     for (std::uint32_t first = 0, last = 0; first < island.contacts.size(); first = last) {
         const Contact& c = *island.contacts[first];
@@ -105,8 +109,8 @@ namespace {
 
 Sides sides_of(const std::vector<Body>& bodies, const Pair& pair, const Vec3& p, const Vec3& shift_b) {
     Sides sides;
-    sides.a = {&bodies[static_cast<std::size_t>(pair.a)], pair.swapped ? p + shift_b : p, 1};
-    if (pair.b >= 0) sides.b = {&bodies[static_cast<std::size_t>(pair.b)], p + shift_b, -1};
+    sides.a = {&bodies[static_cast<std::size_t>(pair.a)], pair.swapped ? p + shift_b : p};
+    if (pair.b >= 0) sides.b = {&bodies[static_cast<std::size_t>(pair.b)], p + shift_b};
     return sides;
 }
 
@@ -124,24 +128,31 @@ std::span<const ContactMemory> memory_of(const Island& island, const Pair& pair)
     return {first, last};
 }
 
-/// What a pair starts from: the impulses that the last tick ended with. Where the points have other names
-/// than then, since another of two like faces is taken for the first one, those that are new share the load
-/// of those that are gone.
+/// What a pair starts from: the impulses that the last tick ended with. Where the points of two shapes have
+/// other names than then (another of two like faces is taken for the first one, another triangle of two that
+/// share an edge), those that are new share the load of those that are gone.
 Start start_of(const Island& island, const Pair& pair) {
-    const std::span<const ContactMemory> memory = memory_of(island, pair);
-    Start start;
     double load = 0, impulse = 0, known = 0;
-    for (const ContactMemory& m : memory) load += m.load, impulse += m.impulse, start.friction += m.friction;
-    int fresh = 0;
-    Vec3 kept;
-    for (std::uint32_t k = pair.first; k < pair.first + pair.points; ++k) {
+    Vec3 friction, kept;
+    for (const ContactMemory& m : memory_of(island, pair))
+        load += m.load, impulse += m.impulse, friction += m.friction;
+    const Contact& own = *island.contacts[pair.first];
+    std::size_t first = pair.first, last = pair.first;  // of all pairs of these shapes
+    while (first > 0 && is_same_pair(*island.contacts[first - 1], own)) --first;
+    while (last < island.contacts.size() && is_same_pair(*island.contacts[last], own)) ++last;
+    int fresh = 0, fresh_here = 0;
+    for (std::size_t k = first; k < last; ++k) {
         const Contact& c = *island.contacts[k];
-        known += c.load, kept += c.friction, fresh += c.impulse > 0 ? 0 : 1;
+        known += c.load, kept += c.friction;
+        if (c.impulse > 0) continue;
+        ++fresh;
+        if (k >= pair.first && k < pair.first + pair.points) ++fresh_here;
     }
-    const double steady = impulse > 0 ? load / impulse : 0;
-    if (fresh > 0 && load > known)
-        start.fresh_load = (load - known) / fresh, start.lost = (start.friction - kept) * steady;
-    start.steady = steady;
+    Start start;
+    start.steady = impulse > 0 ? load / impulse : 0;
+    if (fresh == 0 || load <= known) return start;
+    start.fresh_load = (load - known) / fresh;
+    start.lost = (friction - kept) * (start.steady * fresh_here / fresh);
     return start;
 }
 

@@ -31,14 +31,16 @@ struct Island {
 /// True where the accuracy leaves robots that touch each other to soft substeps, and these can solve all
 /// members.
 bool can_solve(const Model& model, std::span<const RobotWork> robots, std::span<const std::uint32_t> members);
-/// True for a contact of two robots, or with scenery, that soft substeps can solve.
-bool can_solve(const Contact& contact, const SurfacePair& surface);
+/// True for a contact of two robots, or with scenery, that soft substeps can solve. On triangles they would
+/// leave bodies trembling: where an edge of a body rests on an edge of a mesh, the point comes and goes as it
+/// moves.
+bool can_solve(const Model& model, const Contact& contact, const SurfacePair& surface);
 
 /// What a pair of shapes starts from, by the last tick.
 struct Start {
     double fresh_load = 0;  // N s, of each point that is new
     double steady = 0;      // what the last tick ended with, of its sum over the substeps
-    Vec3 friction, lost;    // N s on side A: all of it; that of points that are gone, as it ended
+    Vec3 lost;              // N s on side A: friction of points that are gone, as it ended
 };
 
 class Solver {

@@ -7,6 +7,7 @@
 #include <memory>
 
 #include <support/bodies.h>
+#include <support/meshes.h>
 #include <support/scenes.h>
 #include <support/simulation.h>
 
@@ -157,6 +158,24 @@ TEST(SoftContacts, AHeapFallsSinksLittleAndComesToRest) {
     for (const RobotState& state : sim.states)
         if (state.q.size() == 7) {
             EXPECT_GT(state.q[2], 0.037);
+        }
+}
+
+/// Triangles are left to the exact solver.
+TEST(SoftContacts, BoxesOnUnevenGroundComeToRest) {
+    World world = fast_world();
+    const auto height = [](double x, double y) { return 0.01 * std::sin(9 * x) * std::cos(7 * y); };
+    place(world, scenery(mesh_shape(sheet_mesh(2, 2, 40, 40, height), surface(0.8))), "ground");
+    for (int i = 0; i < 8; ++i)
+        add(world, solid_box(1.0, kSize, surface(0.8)),
+            {0.3 * (i / 2 % 2), 0.3 * (i / 4), 0.07 + kSize.z * (i % 2)});
+    Simulation sim(world);
+    sim.run(4);
+    tell("fastest after 4 s, m/s or rad/s", fastest(sim));
+    EXPECT_LT(fastest(sim), 1e-6);
+    for (const RobotState& state : sim.states)
+        if (state.q.size() == 7) {
+            EXPECT_GT(state.q[2], 0.02);
         }
 }
 
