@@ -83,7 +83,7 @@ class Services(WithRun):
                          dict.fromkeys(("pause", "step", "spawn", "delete", "play"), done), seen)
         self.assertEqual(seen["step while it plays"][0], failed)
         self.assertEqual(seen["again"][0], 101, "NAME_NOT_UNIQUE")
-        self.assertNotEqual(seen["nobody"][0], done)
+        self.assertNotEqual(seen["unknown"][0], done)
         self.assertIsNone(run.poll())
 
 

@@ -9,6 +9,7 @@
 #include "core/make_room.h"
 #include "geometry/collide.h"
 #include "physics/bonds/bond_keeper.h"
+#include "physics/contact/pair_of.h"
 #include "physics/contact/surface_motion.h"
 #include "physics/contact/swept_contact.h"
 #include "physics/contact/wheel_slip.h"
@@ -24,8 +25,6 @@ struct ContactFinder::Pair {
 };
 
 namespace {
-
-constexpr std::uint32_t kStatic = RobotId::kNone;
 
 /// Drops all but the `keep` deepest points; of equal depth the first.
 std::uint32_t points_to_keep(const Manifold& manifold, std::uint32_t keep) {
@@ -77,10 +76,6 @@ void add_points(const Manifold& manifold, const auto& pair, std::uint32_t keep,
 
 std::uint32_t points_max(const Material& a, const Material& b) {
     return std::min(a.contacts_max, b.contacts_max);
-}
-
-std::uint32_t other_id(std::span<const RobotWork> robots, const Contact& c) {
-    return c.robot_b < 0 ? kStatic : robots[static_cast<std::size_t>(c.robot_b)].id.value;
 }
 
 /// By (other id, shapes, feature); mostly they come so.

@@ -313,18 +313,8 @@ void stop_late_hits(const Model& model, std::span<RobotWork> robots, IslandScrat
     if (!is_plausible(s.displacement)) return;
     const std::size_t found = s.contacts.size();
     for (int round = 0; round <= kRounds; ++round) {
-        const SolvedIsland island{model,
-                                  robots,
-                                  members,
-                                  s.offsets_of_group,
-                                  s.group.near_misses,
-                                  {s.contacts.data(), found},
-                                  s.v,
-                                  s.displacement,
-                                  s.drifts,
-                                  s.large_turns,
-                                  is_anchored(robots, s),
-                                  *s.group.free_courses};
+        SolvedIsland island = solved_island(model, robots, members, s, found);
+        island.anchored = is_anchored(robots, s);
         if (!s.look.find(island, round == 0)) break;
         if (round == kRounds) {
             stop_at_first_hit(model, robots, s, members);

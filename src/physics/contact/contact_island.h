@@ -15,6 +15,25 @@ inline bool is_plausible(std::span<const double> x) {
     return std::ranges::all_of(x, [](double each) { return std::fabs(each) < kMost; });
 }
 
+/// The island as the second look sees it, its first `found` contacts being those of the beginning of the
+/// tick.
+inline SolvedIsland solved_island(const Model& model, std::span<const RobotWork> robots,
+                                  std::span<const std::uint32_t> members, const IslandScratch& s,
+                                  std::size_t found) {
+    return {model,
+            robots,
+            members,
+            s.offsets_of_group,
+            s.group.near_misses,
+            {s.contacts.data(), found},
+            s.v,
+            s.displacement,
+            s.drifts,
+            s.large_turns,
+            false,
+            *s.group.free_courses};
+}
+
 /// The stages of an island, called by step_robots (tick.h) in the order in which they are declared. Rows,
 /// velocities and displacements pass from stage to stage in the scratch.
 class ContactIsland {

@@ -7,15 +7,12 @@
 #include "core/make_room.h"
 #include "geometry/collide.h"
 #include "physics/contact/island_guard.h"
+#include "physics/contact/pair_of.h"
 #include "physics/dynamics/fast_turning.h"
 #include "physics/dynamics/lone_body.h"
 
 namespace roboss {
 namespace {
-
-ShapePair pair_of(const Contact& c) {
-    return {c.robot_a, c.robot_b, c.shape_a, c.shape_b};
-}
 
 /// Those of which the robot is the first, of contacts in the order of their first robots.
 std::span<const Contact* const> contacts_of(std::uint32_t robot, std::span<const Contact* const> contacts) {

@@ -1,4 +1,4 @@
-// What a contact island does where soft substeps solve it (soft/soft_solver.h).
+// The stages of a contact island that soft substeps solve (soft/soft_solver.h).
 #include "physics/contact/contact_island.h"
 
 namespace roboss {
@@ -6,9 +6,7 @@ namespace {
 
 /// True if what materials make of contact `c` is what they made of the one before it.
 bool shares_surfaces(const Contact& before, const SurfacePair& surface, const Contact& c) {
-    return before.robot_a == c.robot_a && before.robot_b == c.robot_b && before.shape_a == c.shape_a &&
-           before.shape_b == c.shape_b && before.normal == c.normal && surface.torsional == 0 &&
-           !surface.moves();
+    return soft::are_of_one_patch(before, c) && surface.torsional == 0 && !surface.moves();
 }
 
 }  // namespace
@@ -29,7 +27,7 @@ bool ContactIsland::take_soft() {
     return s_.contacts.clear(), false;
 }
 
-/// Solves, looks for what the motion hits besides its contacts, and solves again with that.
+/// Solves, looks for what the motion hits besides its contacts, and solves again with the hits.
 void ContactIsland::solve_soft() {
     constexpr int kRounds = 3;
     const std::size_t found = s_.contacts.size();
@@ -48,7 +46,7 @@ void ContactIsland::solve_soft() {
     if (s_.group.profiles_solver) profile_island(static_cast<int>(members_.size()));
 }
 
-/// What the solved motion hits that it did not touch; false if there is nothing.
+/// Looks for shapes that the solved motion hits and that it did not touch; false if there are none.
 bool ContactIsland::find_soft_hits(std::size_t found, bool first) {
     s_.offsets_of_group.resize(robots_.size());
     int size = 0;
@@ -57,19 +55,8 @@ bool ContactIsland::find_soft_hits(std::size_t found, bool first) {
     s_.soft.give_motion(soft_island(), s_.offsets_of_group, s_.v, s_.displacement);
     if (!is_plausible(s_.displacement)) return false;
     s_.drifts.assign(members_.size(), 0), s_.large_turns.assign(members_.size(), 0);
-    const SolvedIsland island{model_,
-                              robots_,
-                              members_,
-                              s_.offsets_of_group,
-                              s_.group.near_misses,
-                              {s_.contacts.data(), found},
-                              s_.v,
-                              s_.displacement,
-                              s_.drifts,
-                              s_.large_turns,
-                              false,
-                              *s_.group.free_courses,
-                              true};
+    SolvedIsland island = solved_island(model_, robots_, members_, s_, found);
+    island.passing_only = true;
     return s_.look.find(island, first);
 }
 

@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "math/vec3.h"
 #include "physics/soft/soft_rows.h"
 
 namespace roboss::soft {
@@ -16,6 +17,7 @@ struct Pair {
     std::uint32_t first = 0;   // contact
     std::uint32_t points = 0;  // at most eight
     bool swapped = false;      // a is side B of the contact, which scenery is side A of
+    Vec3 middle;               // of its points, where its friction acts, world axes
 };
 
 /// Greedy colouring in the order of the pairs: two bodies take the lowest colour that neither has. Pairs with

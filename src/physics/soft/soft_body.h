@@ -42,7 +42,7 @@ struct Body {
 bool may_be_soft(const RobotType& type);
 /// The placed robot's body. False if its inertia has no root: it is no rigid body of finite size.
 bool take_body(RobotWork& robot, Body& body);
-/// What gravity and wrenches change in a time `h`, s.
+/// The change by gravity and wrenches in a time `h`, s.
 Motion kick_of(const Model& model, const Body& body, double h);
 Motion velocity_of(const Body& body);
 /// `factor` times a motion as the robot's degrees of freedom have it at the beginning of the tick: turning,

@@ -31,8 +31,8 @@ struct Point {
     Eight total;                 // N s, of the tick
 };
 
-/// What eight patches have once each: the normal, and friction as one force in the plane and one twist about
-/// the normal.
+/// Each of eight patches has these once: the normal, and friction as one force in the plane and one twist
+/// about the normal.
 struct Patch {
     Eight n[3], t1[3], t2[3];                                  // the normal from b to a, and the tangents
     Eight slide_1a[3], slide_2a[3], slide_1b[3], slide_2b[3];  // of friction, as Point::turn_a

@@ -7,6 +7,7 @@
 
 #include "core/fixed_math.h"
 #include "physics/contact/contact_rows.h"
+#include "physics/contact/pair_of.h"
 #include "physics/dynamics/kick_drift.h"
 #include "physics/solver/fast_accuracy.h"
 
@@ -45,16 +46,24 @@ struct Sides {
     }
 };
 
-bool is_same_pair(const Contact& a, const Contact& b) {
-    return a.robot_a == b.robot_a && a.robot_b == b.robot_b && a.shape_a == b.shape_a &&
-           a.shape_b == b.shape_b;
+/// Where the friction of a patch acts: the middle of its points, those that are apart less.
+Vec3 middle_of(const Island& island, const Pair& pair) {
+    constexpr double kApart = 2e-3;  // m, that counts for nothing
+    Vec3 sum;
+    double weight = 0;
+    for (std::uint32_t k = pair.first; k < pair.first + pair.points; ++k) {
+        const Contact& c = *island.contacts[k];
+        const double share = std::clamp(2 - c.gap * (2 / kApart), 1e-9, 1.0);
+        sum += c.p_W * share, weight += share;
+    }
+    return sum / weight;
 }
 
 void put(const Vec3& v, std::size_t lane, Eight* to) {
     to[0].x[lane] = v.x, to[1].x[lane] = v.y, to[2].x[lane] = v.z;
 }
 
-/// What gravity lets a body fall in two ticks: slower blows do not bounce.
+/// m/s: slower blows do not bounce. At least the speed that gravity gives in two ticks.
 double least_blow(const Model& model, const SurfacePair& surface) {
     return std::max(surface.bounce_threshold, contact::kTouchTicks * norm(model.gravity) * model.dt_s);
 }
@@ -65,6 +74,10 @@ bool can_solve(const Model& model, std::span<const RobotWork> robots,
                std::span<const std::uint32_t> members) {
     return members.size() > 1 && is_fast(model.accuracy) &&
            std::ranges::all_of(members, [&](std::uint32_t m) { return may_be_soft(*robots[m].type); });
+}
+
+bool are_of_one_patch(const Contact& a, const Contact& b) {
+    return pair_of(a) == pair_of(b) && a.normal == b.normal;
 }
 
 bool can_solve(const Model& model, const Contact& contact, const SurfacePair& surface) {
@@ -91,17 +104,17 @@ bool Solver::take(const Island& island) {
 /// Contacts of one pair of shapes with one normal, at most eight, are a pair.
 void Solver::list_pairs(const Island& island) {
     pairs_.clear();
-    const auto goes_on = [](const Contact& first, const Contact& c) {
-        return is_same_pair(first, c) && c.normal == first.normal;
-    };
     for (std::uint32_t first = 0, last = 0; first < island.contacts.size(); first = last) {
         const Contact& c = *island.contacts[first];
-        while (last < island.contacts.size() && last < first + 8 && goes_on(c, *island.contacts[last]))
+        while (last < island.contacts.size() && last < first + 8 &&
+               are_of_one_patch(c, *island.contacts[last]))
             ++last;
-        Pair pair{body_of_[static_cast<std::size_t>(c.robot_a)], -1, first, last - first, false};
+        Pair pair{body_of_[static_cast<std::size_t>(c.robot_a)], -1, first, last - first, false, {}};
         if (c.robot_b >= 0) pair.b = body_of_[static_cast<std::size_t>(c.robot_b)];
         if (pair.a < 0) std::swap(pair.a, pair.b), pair.swapped = true;
-        if (pair.a >= 0) pairs_.push_back(pair);
+        if (pair.a < 0) continue;
+        pair.middle = middle_of(island, pair);
+        pairs_.push_back(pair);
     }
 }
 
@@ -118,28 +131,26 @@ Sides sides_of(const std::vector<Body>& bodies, const Pair& pair, const Vec3& p,
 std::span<const ContactMemory> memory_of(const Island& island, const Pair& pair) {
     const Contact& c = *island.contacts[pair.first];
     const RobotWork& a = island.robots[static_cast<std::size_t>(c.robot_a)];
-    const std::uint32_t other =
-        c.robot_b < 0 ? RobotId::kNone : island.robots[static_cast<std::size_t>(c.robot_b)].id.value;
     const auto key = [](const ContactMemory& m) { return std::tuple(m.other_robot, m.shape, m.other_shape); };
     const std::vector<ContactMemory>& all = a.state->contacts;
-    const std::tuple wanted(other, c.shape_a, c.shape_b);
+    const std::tuple wanted(other_id(island.robots, c), c.shape_a, c.shape_b);
     const auto first = std::ranges::lower_bound(all, wanted, {}, key),
                last = std::ranges::upper_bound(first, all.end(), wanted, {}, key);
     return {first, last};
 }
 
-/// What a pair starts from: the impulses that the last tick ended with. Where the points of two shapes have
-/// other names than then (another of two like faces is taken for the first one, another triangle of two that
-/// share an edge), those that are new share the load of those that are gone.
+/// A pair starts from the impulses that the last tick ended with. Where the points of two shapes have other
+/// names than then, since another of two like faces is taken for the first one, those that are new share the
+/// load of those that are gone.
 Start start_of(const Island& island, const Pair& pair) {
     double load = 0, impulse = 0, known = 0;
     Vec3 friction, kept;
     for (const ContactMemory& m : memory_of(island, pair))
         load += m.load, impulse += m.impulse, friction += m.friction;
-    const Contact& own = *island.contacts[pair.first];
+    const ShapePair shapes = pair_of(*island.contacts[pair.first]);
     std::size_t first = pair.first, last = pair.first;  // of all pairs of these shapes
-    while (first > 0 && is_same_pair(*island.contacts[first - 1], own)) --first;
-    while (last < island.contacts.size() && is_same_pair(*island.contacts[last], own)) ++last;
+    while (first > 0 && pair_of(*island.contacts[first - 1]) == shapes) --first;
+    while (last < island.contacts.size() && pair_of(*island.contacts[last]) == shapes) ++last;
     int fresh = 0, fresh_here = 0;
     for (std::size_t k = first; k < last; ++k) {
         const Contact& c = *island.contacts[k];
@@ -159,12 +170,11 @@ Start start_of(const Island& island, const Pair& pair) {
 }  // namespace
 
 void Solver::fill_batch(const Island& island, std::size_t batch) {
-    const std::size_t first = batches_.first_pairs()[batch];
     const Batch& b = problem_.batches[batch];
     problem_.patches[batch] = {};
     std::fill_n(problem_.points.begin() + static_cast<std::ptrdiff_t>(b.first), b.points, Point{});
     for (std::size_t lane = 0; lane < static_cast<std::size_t>(b.patches); ++lane) {
-        const Pair& pair = pairs_[batches_.order()[first + lane]];
+        const Pair& pair = pair_at(batch, lane);
         const Start start = start_of(island, pair);
         fill(island, pair, start, lane, b, problem_.patches[batch]);
         fill_friction(island, pair, start, lane, b, problem_.patches[batch]);
@@ -205,30 +215,13 @@ void Solver::fill(const Island& island, const Pair& pair, const Start& start, st
     }
 }
 
-namespace {
-
-/// Where the friction of a patch acts: the middle of its points, those that are apart less.
-Vec3 middle_of(const Island& island, const Pair& pair) {
-    constexpr double kApart = 2e-3;  // m, that counts for nothing
-    Vec3 sum;
-    double weight = 0;
-    for (std::uint32_t k = pair.first; k < pair.first + pair.points; ++k) {
-        const Contact& c = *island.contacts[k];
-        const double share = std::clamp(2 - c.gap * (2 / kApart), 1e-9, 1.0);
-        sum += c.p_W * share, weight += share;
-    }
-    return sum / weight;
-}
-
-}  // namespace
-
 void Solver::fill_friction(const Island& island, const Pair& pair, const Start& start, std::size_t lane,
                            const Batch& batch, Patch& patch) {
     const double way = pair.swapped ? -1 : 1;
     const Contact& first = *island.contacts[pair.first];
     const SurfacePair& surface = island.surfaces[pair.first];
     const ContactFrame frame = frame_of(first.normal * way, surface.friction);
-    const Vec3 middle = middle_of(island, pair);
+    const Vec3& middle = pair.middle;
     const Sides sides = sides_of(bodies_, pair, middle, first.shift_b);
     Vec3 friction = start.lost * way, speed = surface.velocity;
     double twist = 0;
@@ -324,7 +317,6 @@ void Solver::give(const Island& island, const Pair& pair, std::size_t lane, cons
     const Vec3 n = vector(patch.n),
                friction = vector(patch.t1) * patch.total_1.x[lane] + vector(patch.t2) * patch.total_2.x[lane];
     const double twist = patch.total_twist.x[lane];
-    const Vec3 middle = middle_of(island, pair);
     double sum = 0;
     Vec3 pressed;
     for (std::uint32_t k = 0; k < pair.points; ++k) {
@@ -341,23 +333,13 @@ void Solver::give(const Island& island, const Pair& pair, std::size_t lane, cons
         if (sum > 0) spread += c.impulse / sum * norm_squared(cross(n, c.p_W - pressed));
     }
     constexpr double kPoint = 1e-12;  // m^2: one place gives no twist but by its own surface
-    const double turn = spread > kPoint ? (twist - dot(n, cross(pressed - middle, friction))) / spread : 0.0;
+    const double turn =
+        spread > kPoint ? (twist - dot(n, cross(pressed - pair.middle, friction))) / spread : 0.0;
     for (std::uint32_t k = 0; k < pair.points; ++k) {
         Contact& c = *island.contacts[pair.first + k];
         const double share = sum > 0 ? c.impulse / sum : 0;
         c.friction = (friction + cross(n, c.p_W - pressed) * turn) * (share * way);
         c.moment = spread > kPoint ? Vec3{} : n * (twist * share * way);
-    }
-}
-
-/// act(pair, lane, batch, patch) for all pairs.
-template <class Act>
-void Solver::for_pairs(const Act& act) const {
-    for (std::size_t batch = 0; batch < problem_.batches.size(); ++batch) {
-        const Batch& b = problem_.batches[batch];
-        const std::size_t first = batches_.first_pairs()[batch];
-        for (std::size_t lane = 0; lane < static_cast<std::size_t>(b.patches); ++lane)
-            act(pairs_[batches_.order()[first + lane]], lane, b, problem_.patches[batch]);
     }
 }
 
@@ -381,9 +363,11 @@ void Solver::mark_pushed() {
 
 void Solver::give_impulses(const Island& island) const {
     for (Contact* c : island.contacts) c->impulse = c->load = 0, c->friction = c->moment = {};
-    for_pairs([&](const Pair& pair, std::size_t lane, const Batch& batch, const Patch& patch) {
-        give(island, pair, lane, batch, patch);
-    });
+    for (std::size_t batch = 0; batch < problem_.batches.size(); ++batch) {
+        const Batch& b = problem_.batches[batch];
+        for (std::size_t lane = 0; lane < static_cast<std::size_t>(b.patches); ++lane)
+            give(island, pair_at(batch, lane), lane, b, problem_.patches[batch]);
+    }
 }
 
 void Solver::give_motion(const Island& island, std::span<const int> offsets, std::span<double> velocity,

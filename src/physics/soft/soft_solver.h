@@ -31,12 +31,14 @@ struct Island {
 /// True where the accuracy leaves robots that touch each other to soft substeps, and these can solve all
 /// members.
 bool can_solve(const Model& model, std::span<const RobotWork> robots, std::span<const std::uint32_t> members);
+/// True for contacts of the same shapes with one normal.
+bool are_of_one_patch(const Contact& a, const Contact& b);
 /// True for a contact of two robots, or with scenery, that soft substeps can solve. On triangles they would
 /// leave bodies trembling: where an edge of a body rests on an edge of a mesh, the point comes and goes as it
 /// moves.
 bool can_solve(const Model& model, const Contact& contact, const SurfacePair& surface);
 
-/// What a pair of shapes starts from, by the last tick.
+/// The start of a pair of shapes, by the last tick.
 struct Start {
     double fresh_load = 0;  // N s, of each point that is new
     double steady = 0;      // what the last tick ended with, of its sum over the substeps
@@ -72,8 +74,9 @@ class Solver {
     void run(Pass pass, const Team& team);
     void give(const Island& island, const Pair& pair, std::size_t lane, const Batch& batch,
               const Patch& patch) const;
-    template <class Act>
-    void for_pairs(const Act& act) const;
+    const Pair& pair_at(std::size_t batch, std::size_t lane) const {
+        return pairs_[batches_.order()[batches_.first_pairs()[batch] + lane]];
+    }
 
     std::vector<Body> bodies_;
     std::vector<int> body_of_;  // by robot of the group; -1: it does not move

@@ -1,4 +1,4 @@
-// Soft substeps: bodies that touch each other with `--accuracy fast`. What they must keep: rest, slopes,
+// Soft substeps: bodies that touch each other with `--accuracy fast`. They must keep rest, slopes,
 // loads, momentum and energy, rebounds, belts, the same bits on every processor and for every team.
 #include <gtest/gtest.h>
 
@@ -210,7 +210,7 @@ TEST(SoftContacts, NoBitDependsOnTheTeam) {
     EXPECT_EQ(one, hash(3));
 }
 
-/// What else is in the call does not change a heap: its colours depend on its own pairs.
+/// Other bodies in the call do not change a heap: its colours depend on its own pairs.
 TEST(SoftContacts, NoBitDependsOnOtherHeaps) {
     World world = heap(40, 4);
     Simulation alone(world);
@@ -328,7 +328,7 @@ TEST(SoftBatches, ColoursShareNoBody) {
     const int bodies = 60;
     for (std::uint32_t k = 0; k < 900; ++k) {
         const int a = random.integer(0, bodies - 2), b = k % 5 == 0 ? -1 : random.integer(a + 1, bodies - 1);
-        pairs.push_back({a, b, k, static_cast<std::uint32_t>(random.integer(1, 8)), false});
+        pairs.push_back({a, b, k, static_cast<std::uint32_t>(random.integer(1, 8)), false, {}});
     }
     soft::Problem problem;
     soft::Batches batches;

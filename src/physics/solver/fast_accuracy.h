@@ -1,4 +1,4 @@
-// What `--accuracy fast` leaves out where many touch.
+// The shortcuts of `--accuracy fast` where many touch.
 #pragma once
 
 #include "model/model.h"

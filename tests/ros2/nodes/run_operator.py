@@ -28,7 +28,7 @@ def main():
 
     seen = {"first": get_state().state.state, "step while it plays": code(step(steps=5)), "pause": code(set_state(state=state(PAUSED))),
             "paused": get_state().state.state, "step": code(step(steps=50)), "spawn": code(spawn_at(1.0)), "again": code(spawn_at(2.0)),
-            "delete": code(delete(entity="box_1")), "nobody": code(delete(entity="box_1")),
+            "delete": code(delete(entity="box_1")), "unknown": code(delete(entity="box_1")),
             "play": code(set_state(state=state(PLAYING))), "last": get_state().state.state}
     print(json.dumps(seen), flush=True)
 
