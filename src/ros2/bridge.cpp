@@ -10,6 +10,7 @@
 #include <unordered_map>
 #include <utility>
 
+#include "ros2/file_line.h"
 #include "ros2/robot_names.h"
 #include "ros2_types/messages/sensor_messages.h"
 

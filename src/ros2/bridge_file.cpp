@@ -1,29 +1,24 @@
-// See bridge_file.h. No other file knows yaml-cpp.
-//
-// yaml-cpp shares what aliases stand for instead of copying it, and limits the depth of nesting. An entry is
-// a map of plain values, so nothing here follows aliases further; the limits below bound the rest.
+// See bridge_file.h. An entry is a map of plain values, so nothing here follows aliases further; the limits
+// below bound the rest.
 #include "ros2/bridge_file.h"
-
-#include <yaml-cpp/yaml.h>
 
 #include <algorithm>
 #include <array>
 #include <cctype>
 #include <charconv>
-#include <fstream>
-#include <iterator>
 #include <map>
 #include <optional>
 #include <string_view>
 
+#include "ros2/robot_names.h"
+#include "ros2/yaml_file.h"
 #include "ros2_types/type_description.h"
 
 namespace roboss::ros2 {
 
 namespace {
 
-constexpr std::size_t kBytesMost = 1'000'000, kEntriesMost = 10'000, kKeysMost = 64;
-constexpr std::size_t kRosNameMost = 247;             // characters, as of rmw
+constexpr std::size_t kEntriesMost = 10'000, kKeysMost = 64;
 constexpr const char* kBridgeNode = "ros_gz_bridge";  // "~/scan" is "/ros_gz_bridge/scan"
 
 constexpr std::array kBridgeKeys{"topic_name",
@@ -48,20 +43,6 @@ Error bad_bridge(const std::string& where, const std::string& what, const std::s
     return {where + what, remedy, "bad-bridge"};
 }
 
-/// Why a name is none of ROS 2; empty: it is one.
-std::string problem_of_ros_name(const std::string& name) {
-    if (name.size() > kRosNameMost) return "has more than " + std::to_string(kRosNameMost) + " characters";
-    for (std::size_t i = 0; i < name.size(); ++i) {
-        const auto c = static_cast<unsigned char>(name[i]);
-        const bool begins = i > 0 && name[i - 1] == '/';
-        if (c == '/' && (begins || i + 1 == name.size())) return "has a part without characters";
-        if (c >= 0x80 || (!std::isalnum(c) && c != '_' && c != '/'))
-            return "has other characters than letters, digits, _ and /";
-        if (begins && std::isdigit(c)) return "has a part that begins with a digit";
-    }
-    return {};
-}
-
 /// The name as a node "/ros_gz_bridge" resolves it.
 std::string absolute(const std::string& name) {
     if (name == "~" || name.starts_with("~/")) return "/" + std::string(kBridgeNode) + name.substr(1);
@@ -73,8 +54,7 @@ class BridgeReader {
   public:
     explicit BridgeReader(std::string file) { bridge_.file = std::move(file); }
 
-    Result<Bridge> read(const std::string& text) {
-        const YAML::Node all = YAML::Load(text);
+    Result<Bridge> read(const YAML::Node& all) {
         if (!all.IsSequence())
             return bad_bridge(bridge_.file + ": ", "it is no list of entries",
                               "begin each entry with '- ', as in '- topic_name: /clock'");
@@ -128,7 +108,7 @@ class BridgeReader {
         Result<> named = values.contains("service_name") ? name_service(node, values, entry)
                                                          : name_topic(node, values, entry);
         if (!named) return named.error();
-        if (const std::string problem = problem_of_ros_name(entry.ros_name); !problem.empty())
+        if (const std::string problem = problem_of_name(entry.ros_name); !problem.empty())
             return bad_bridge(where(node), "the name '" + entry.ros_name + "' in ROS 2 " + problem,
                               "give another ros_topic_name");
         bridge_.entries.push_back(std::move(entry));
@@ -214,29 +194,14 @@ std::string gazebo_name(const std::string& name) {
     return result;
 }
 
-std::string at_line(const std::string& file, int line) {
-    return file + ":" + std::to_string(line) + ": ";
-}
-
 Result<Bridge> parse_bridge(const std::string& file, const std::string& text) {
-    try {
-        return BridgeReader(file).read(text);
-    } catch (const YAML::Exception& why) {
-        return bad_bridge(why.mark.is_null() ? file + ": " : at_line(file, why.mark.line + 1),
-                          "it is no YAML: " + why.msg, "correct the line, or the one before it");
-    }
+    return parse_yaml(file, text, "bad-bridge",
+                      [&](const YAML::Node& all) { return BridgeReader(file).read(all); });
 }
 
 Result<Bridge> read_bridge(const std::filesystem::path& file) {
-    std::ifstream in(file, std::ios::binary);
-    std::string text(kBytesMost + 1, '\0');
-    in.read(text.data(), static_cast<std::streamsize>(text.size()));
-    if (!in.is_open() || in.bad())
-        return bad_bridge(file.string() + ": ", "it cannot be read", "give a file of ros_gz_bridge");
-    text.resize(static_cast<std::size_t>(in.gcount()));
-    if (text.size() > kBytesMost)
-        return bad_bridge(file.string() + ": ", "it has more than 1 MB", "give a file of ros_gz_bridge");
-    return parse_bridge(file.string(), text);
+    const Result<std::string> text = read_yaml_text(file, "bad-bridge", "give a file of ros_gz_bridge");
+    return text ? parse_bridge(file.string(), text.value()) : Result<Bridge>(text.error());
 }
 
 }  // namespace roboss::ros2

@@ -39,9 +39,6 @@ struct Bridge {
 /// The name of a topic as gz-transport writes it: "lidar" is "/lidar".
 std::string gazebo_name(const std::string& name);
 
-/// "bridge.yaml:12: ": in front of messages about a line.
-std::string at_line(const std::string& file, int line);
-
 /// Reads the text of a file. An Error names file and line.
 Result<Bridge> parse_bridge(const std::string& file, const std::string& text);
 

@@ -86,13 +86,21 @@ Result<> Face::show(std::shared_ptr<const Model> model, const Address& self) {
     shown_ = -1, welcomes_ = 0, ready_ = false, misplaced_ = 0;
     subscribers_.clear(), broken_.clear();
     open_nodes();
-    services_.use(*client_, robot_nodes_, robot_names(*model_, root));
+    use_services();
     services_.put("period", static_cast<double>(times.period) * model_->dt_s,
                   "simulated time between two looks at the world, s");
     open_topics();
     open_commands();
     transport_.announce();
     return Ok{};
+}
+
+void Face::use_services() {
+    const std::vector<std::string> names = robot_names(*model_, options_.topics.root);
+    const std::shared_ptr<const Controllers>& controllers = options_.topics.controllers;
+    services_.use(*client_, robot_nodes_, names, controllers);
+    if (!controllers) return;
+    for (const std::string& line : controller_notices(*controllers, *model_, names)) notice(line);
 }
 
 void Face::advance(Bus& bus) {

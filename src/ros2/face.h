@@ -64,6 +64,7 @@ class Face {
     using Endpoints = std::map<std::string, Endpoint>;  // by topic
 
     void open_nodes();
+    void use_services();
     void open_topics();
     void open_commands();
     EntityId node_of(RobotId robot) const;

@@ -10,8 +10,9 @@
 #include "ros2/bus_run_control.h"
 #include "ros2/gazebo_services.h"
 #include "ros2/node_parameters.h"
+#include "ros2/robot_action.h"
+#include "ros2/robot_controllers.h"
 #include "ros2/simulation_services.h"
-#include "ros2/trajectory_action.h"
 
 namespace roboss::ros2 {
 
@@ -28,8 +29,10 @@ class FaceServices {
     FaceServices(Transport& transport, EntityId world_node, FaceServiceOptions options);
 
     /// The run is seen by this Client from now on. `nodes`, `names`: of its robots, by RobotId, as
-    /// robot_names() has them. The Client outlives this object, or the next call.
-    void use(BusClient& client, const std::vector<EntityId>& nodes, std::vector<std::string> names);
+    /// robot_names() has them. `controllers`: of a file; null: the usual ones. The Client outlives this
+    /// object, or the next call.
+    void use(BusClient& client, const std::vector<EntityId>& nodes, std::vector<std::string> names,
+             std::shared_ptr<const Controllers> controllers);
     /// Shows a number among the parameters of the node.
     void put(const std::string& parameter, double value, const std::string& description);
     /// Serves a call. False: it is of none of these services.
@@ -41,6 +44,7 @@ class FaceServices {
 
   private:
     void add_actions();
+    std::size_t add_actions(RobotId robot);
 
     Transport& transport_;
     EntityId world_node_;
@@ -52,8 +56,9 @@ class FaceServices {
     std::string world_;
     std::vector<std::string> names_;  // of robots
     std::vector<EntityId> nodes_;
-    std::size_t next_ = 0;  // robot whose action is added next
-    std::vector<std::unique_ptr<TrajectoryAction>> actions_;
+    std::size_t next_ = 0;  // robot whose actions are added next
+    std::shared_ptr<const Controllers> controllers_;
+    std::vector<std::unique_ptr<RobotAction>> actions_;
 };
 
 }  // namespace roboss::ros2

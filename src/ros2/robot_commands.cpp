@@ -9,6 +9,7 @@
 
 #include "ros2/bridged_commands.h"
 #include "ros2/fleet_topics.h"
+#include "ros2/robot_controllers.h"
 #include "ros2/robot_names.h"
 #include "ros2_types/cdr.h"
 #include "ros2_types/messages/command_messages.h"
@@ -142,33 +143,18 @@ std::string command_topic(const Channel& channel, const std::string& space, std:
 
 }  // namespace
 
-std::vector<JointId> driven_joints(const RobotType& type) {
-    std::set<std::size_t> followers;
-    for (const CoordinateCoupling& coupling : type.couplings) followers.insert(coupling.joint.index());
-    std::vector<JointId> joints;
-    for (std::size_t j = 0; j < type.joints.size(); ++j) {
-        const Joint& joint = type.joints[j];
-        if (joint.nv != 1 || joint.loop >= 0 || followers.contains(j)) continue;
-        const auto dof = static_cast<std::size_t>(joint.v_index - type.base_nv());
-        if (type.dofs[dof].max_effort > 0) joints.push_back(JointId(j));
-    }
-    return joints;
-}
-
 RobotCommands::RobotCommands(std::shared_ptr<const Model> model, const TopicOptions& options)
-    : model_(std::move(model)) {
-    for (const RobotType& type : model_->types) driven_.push_back(driven_joints(type));
+    : model_(std::move(model)), controllers_(options.controllers) {
     const std::vector<std::string> names = robot_names(*model_, options.root);
     std::set<std::string> taken;
-    for (std::size_t r = 0; r < names.size(); ++r)
-        add_robot(RobotId(r), below(names[r], ""), options.stamped, taken);
+    for (std::size_t r = 0; r < names.size(); ++r) add_robot(RobotId(r), names[r], options.stamped, taken);
     if (options.bridge) name_commands(match_bridge(*options.bridge, *model_), *model_, topics_);
     if (options.fleet) add_fleet();
 }
 
 void RobotCommands::add_fleet() {
     fleet_ = fleet_of(*model_);
-    topics_.push_back({"/fleet/cmd_vel", &type_of<Float64MultiArray>(), Kind::kFleet, {}, 0, {}});
+    topics_.push_back({"/fleet/cmd_vel", &type_of<Float64MultiArray>(), Kind::kFleet, {}, 0, {}, {}});
 }
 
 bool RobotCommands::takes(std::size_t topic, const std::string& type) const {
@@ -184,22 +170,44 @@ void RobotCommands::change_type(std::size_t number) {
     topic.type = is_stamped ? &type_of<TwistMessage>() : &type_of<TwistStamped>();
 }
 
-void RobotCommands::add_robot(RobotId robot, const std::string& space, bool stamped,
+void RobotCommands::add_robot(RobotId robot, const std::string& name, bool stamped,
                               std::set<std::string>& taken) {
     const RobotType& type = model_->type_of(robot);
+    const std::string space = below(name, "");
     for (std::size_t c = 0; c < type.channels.size(); ++c) {
         const Channel& channel = type.channels[c].channel;
         const auto [kind, message] = message_of(channel, stamped);
-        topics_.push_back(
-            {command_topic(channel, space, taken), message, kind, robot, static_cast<std::uint32_t>(c), {}});
+        topics_.push_back({command_topic(channel, space, taken),
+                           message,
+                           kind,
+                           robot,
+                           static_cast<std::uint32_t>(c),
+                           {},
+                           {}});
     }
-    if (!type.channels.empty() || driven_[model_->robots[robot.index()].type.index()].empty()) return;
-    static constexpr std::array<std::pair<const char*, MotorMode>, 3> kControllers{
-        {{"position_controller/commands", MotorMode::kPosition},
-         {"velocity_controller/commands", MotorMode::kVelocity},
-         {"effort_controller/commands", MotorMode::kEffort}}};
-    for (const auto& [name, mode] : kControllers)
-        topics_.push_back({space + name, &type_of<Float64MultiArray>(), Kind::kSetpoints, robot, 0, mode});
+    if (type.channels.empty()) add_setpoints(robot, name);
+}
+
+void RobotCommands::add_setpoints(RobotId robot, const std::string& name) {
+    const RobotType& type = model_->type_of(robot);
+    const auto add = [&](const std::string& controller, MotorMode mode, const std::vector<JointId>& joints) {
+        topics_.push_back({below(name, controller + "/commands"), &type_of<Float64MultiArray>(),
+                           Kind::kSetpoints, robot, 0, mode, joints});
+    };
+    if (controllers_) {
+        const std::vector<RobotController> own = controllers_of(*controllers_, type, name);
+        for (const RobotController& controller : own)
+            if (controller.entry->kind == ControllerEntry::Kind::kSetpoints)
+                add(controller.entry->name, controller.entry->mode, controller.joints);
+        if (!own.empty()) return;
+    }
+    std::vector<JointId> driven;
+    for (std::size_t j = 0; j < type.joints.size(); ++j)
+        if (is_driven(type, JointId(j))) driven.push_back(JointId(j));
+    if (driven.empty()) return;
+    add("position_controller", MotorMode::kPosition, driven);
+    add("velocity_controller", MotorMode::kVelocity, driven);
+    add("effort_controller", MotorMode::kEffort, driven);
 }
 
 Result<std::vector<RobotOrder>> RobotCommands::orders(std::size_t number, std::string_view cdr) const {
@@ -252,17 +260,19 @@ Result<std::vector<RobotOrder>> RobotCommands::setpoints(const CommandTopic& top
                                                          std::string_view cdr) const {
     const Result<Float64MultiArray> message = from_cdr<Float64MultiArray>(cdr);
     if (!message) return message.error();
-    const std::vector<JointId>& joints = driven_[model_->robots[topic.robot.index()].type.index()];
+    const RobotType& type = model_->type_of(topic.robot);
+    const std::vector<JointId>& joints = topic.joints;
     if (message.value().data.size() != joints.size()) {
         std::string names;
         for (const JointId joint : joints)
-            names += (names.empty() ? "" : ", ") + model_->type_of(topic.robot).joints[joint.index()].name;
+            names += (names.empty() ? "" : ", ") + type.joints[joint.index()].name;
         return wrong("it has " + std::to_string(message.value().data.size()) + " numbers",
                      "send one for each of: " + names);
     }
     std::vector<RobotOrder> orders;
     for (std::size_t j = 0; j < joints.size(); ++j)
-        orders.push_back({topic.robot, SetJoint{joints[j], 0, topic.mode, message.value().data[j], -1}});
+        if (!follows(type, joints[j]))
+            orders.push_back({topic.robot, SetJoint{joints[j], 0, topic.mode, message.value().data[j], -1}});
     return orders;
 }
 

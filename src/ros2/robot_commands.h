@@ -3,8 +3,9 @@
 // A robot takes each command of its on-board controllers (RobotType::channels) in its namespace:
 // "/car_3/cmd_vel". The message follows from the values of the command: Twist (or TwistStamped) for a
 // velocity, Float64, Bool, String, Float64MultiArray, PoseStamped, JointTrajectory, Empty. A robot without
-// on-board controllers takes the setpoints of its joints as those of ros2_control do:
-// "/arm/position_controller/commands". "/fleet/cmd_vel" drives all robots that take a velocity.
+// on-board controllers takes the setpoints of its joints as those of ros2_control do, by the controllers of a
+// file, or all joints by "/arm/position_controller/commands". "/fleet/cmd_vel" drives all robots that take a
+// velocity.
 #pragma once
 
 #include <cstdint>
@@ -44,6 +45,7 @@ struct CommandTopic {
     RobotId robot{};                        ///< that it drives; not valid: a fleet
     std::uint32_t channel = 0;              ///< the command, in RobotType::channels; not of setpoints
     MotorMode mode = MotorMode::kVelocity;  ///< of setpoints
+    std::vector<JointId> joints{};          ///< in the order of setpoints
 };
 
 /// An order to a robot.
@@ -69,7 +71,8 @@ class RobotCommands {
     Result<std::vector<RobotOrder>> orders(std::size_t topic, std::string_view cdr) const;
 
   private:
-    void add_robot(RobotId robot, const std::string& space, bool stamped, std::set<std::string>& taken);
+    void add_robot(RobotId robot, const std::string& name, bool stamped, std::set<std::string>& taken);
+    void add_setpoints(RobotId robot, const std::string& name);
     Result<std::vector<double>> values(const CommandTopic& topic, std::string_view cdr) const;
     Result<std::vector<RobotOrder>> setpoints(const CommandTopic& topic, std::string_view cdr) const;
     void add_fleet();
@@ -77,14 +80,11 @@ class RobotCommands {
 
     std::shared_ptr<const Model> model_;
     std::vector<CommandTopic> topics_;
-    std::vector<std::vector<JointId>> driven_;  // driven_joints() by TypeId
-    std::vector<RobotId> fleet_;                // rows of /fleet/cmd_vel
+    std::shared_ptr<const Controllers> controllers_;  // of a file; null: the usual ones
+    std::vector<RobotId> fleet_;                      // rows of /fleet/cmd_vel
 };
 
 /// The messages of a command. `stamped`: velocities are TwistStamped.
 std::pair<CommandTopic::Kind, const MessageType*> message_of(const Channel& channel, bool stamped);
-
-/// Joints of one axis that motors move, in the order of their setpoints.
-std::vector<JointId> driven_joints(const RobotType& type);
 
 }  // namespace roboss::ros2

@@ -7,6 +7,8 @@
 
 #include <support/drives.h>
 
+#include "ros2/robot_controllers.h"
+#include "ros2/robot_names.h"
 #include "ros2_types/cdr.h"
 #include "ros2_types/messages/command_messages.h"
 
@@ -156,6 +158,34 @@ TEST_F(Commands, RobotsWithoutControllersTakeSetpointsOfTheirJoints) {
     message.data = {1};
     EXPECT_NE(refusal(orders("/robot/effort_controller/commands", message)).find("left_joint, right_joint"),
               std::string::npos);
+}
+
+TEST_F(Commands, AFileOfControllersNamesTheTopicsOfSetpoints) {
+    constexpr const char* kFile = R"(
+controller_manager: {ros__parameters: {
+  left_only: {type: velocity_controllers/JointGroupVelocityController},
+  path: {type: joint_trajectory_controller/JointTrajectoryController},
+  elsewhere: {type: effort_controllers/JointGroupEffortController}}}
+left_only: {ros__parameters: {joints: [left_joint]}}
+path: {ros__parameters: {joints: [left_joint, right_joint]}}
+elsewhere: {ros__parameters: {joints: [rihgt_joint]}}
+)";
+    TopicOptions options;
+    options.controllers = std::make_shared<const Controllers>(parse_controllers("c.yaml", kFile).value());
+    show(test::two_wheeler(), options);
+    ASSERT_EQ(commands_->topics().size(), 1u) << "instead of the usual ones";
+    Float64MultiArray message;
+    message.data = {0.5};
+    const auto found = orders("/robot/left_only/commands", message);
+    ASSERT_TRUE(found) << found.error().text();
+    ASSERT_EQ(found.value().size(), 1u);
+    EXPECT_EQ(found.value()[0].action, Action(SetJoint{JointId(0u), 0, MotorMode::kVelocity, 0.5, -1}));
+    const std::vector<std::string> notices =
+        controller_notices(*options.controllers, *model_, robot_names(*model_, ""));
+    ASSERT_EQ(notices.size(), 1u);
+    EXPECT_EQ(notices[0],
+              "c.yaml:5: the controller 'elsewhere' has no effect: no robot has the joint 'rihgt_joint'; did "
+              "you mean 'right_joint'? [no-joint]");
 }
 
 TEST_F(Commands, APoseIsAPlaceOnTheGround) {

@@ -31,6 +31,20 @@ std::string ros_path(const std::string& path) {
     return result.empty() ? "_" : result;
 }
 
+std::string problem_of_name(const std::string& name) {
+    constexpr std::size_t kMost = 247;  // characters, as of rmw
+    if (name.size() > kMost) return "has more than " + std::to_string(kMost) + " characters";
+    for (std::size_t i = 0; i < name.size(); ++i) {
+        const auto c = static_cast<unsigned char>(name[i]);
+        const bool begins = i > 0 && name[i - 1] == '/';
+        if (c == '/' && (begins || i + 1 == name.size())) return "has a part without characters";
+        if (c >= 0x80 || (!std::isalnum(c) && c != '_' && c != '/'))
+            return "has other characters than letters, digits, _ and /";
+        if (begins && std::isdigit(c)) return "has a part that begins with a digit";
+    }
+    return {};
+}
+
 std::string beside(const std::string& path, const std::string& name) {
     return path.substr(0, path.rfind('/') + 1) + name;
 }

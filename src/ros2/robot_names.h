@@ -15,6 +15,9 @@ std::string ros_name(const std::string& name);
 /// The same of each part of a path: "/front/scan" is "front/scan".
 std::string ros_path(const std::string& path);
 
+/// Why a name ("/front/scan") is none of ROS 2: "has a part without characters"; empty: it is one.
+std::string problem_of_name(const std::string& name);
+
 /// The path with another last part: "/front/image" is "/front/camera_info".
 std::string beside(const std::string& path, const std::string& name);
 

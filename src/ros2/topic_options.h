@@ -5,6 +5,7 @@
 #include <string>
 
 #include "ros2/bridge_file.h"
+#include "ros2/controllers_file.h"
 
 namespace roboss::ros2 {
 
@@ -17,6 +18,7 @@ struct TopicOptions {
     bool fleet = false;         ///< all robots in one message: "/fleet/states"
     bool stamped = false;       ///< velocities are TwistStamped, until a node sends Twist
     std::shared_ptr<const Bridge> bridge{};  ///< gives topics other names and types; null: none does
+    std::shared_ptr<const Controllers> controllers{};  ///< of joints; null: the usual ones
 };
 
 }  // namespace roboss::ros2

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "physics/dynamics/kinematics.h"
+#include "ros2/robot_controllers.h"
 
 namespace roboss::ros2 {
 
@@ -16,14 +17,6 @@ constexpr std::size_t kMostRows = 2'000;  // of these
 
 Error bad_joints(const std::string& what) {
     return {what, "name each joint of the robot's controller once", "bad-joints"};
-}
-
-/// True of joints with one axis that a motor moves and no other joint drives.
-bool is_driven(const RobotType& type, std::size_t number) {
-    const Joint& joint = type.joints[number];
-    const auto follows = [&](const CoordinateCoupling& c) { return c.joint.index() == number; };
-    return joint.nv == 1 && joint.loop < 0 && std::ranges::none_of(type.couplings, follows) &&
-           type.dof(joint, 0).max_effort > 0;
 }
 
 }  // namespace
@@ -38,7 +31,13 @@ TrajectoryJoints TrajectoryJoints::of(const RobotType& type) {
     }
     if (!type.onboard.empty()) return able;  // its motors have a controller already
     for (std::size_t j = 0; j < type.joints.size(); ++j)
-        if (is_driven(type, j)) able.joints.push_back(JointId(j));
+        if (is_driven(type, JointId(j))) able.joints.push_back(JointId(j));
+    return able;
+}
+
+TrajectoryJoints TrajectoryJoints::of(const RobotType& type, std::vector<JointId> joints) {
+    TrajectoryJoints able = of(type);
+    if (!able.channel) able.joints = std::move(joints);
     return able;
 }
 
@@ -186,10 +185,13 @@ void TrajectoryGoal::hold(RunControl& run) const {
 }
 
 bool TrajectoryGoal::hold_positions(RunControl& run, const std::vector<JointPoint>& at) const {
+    const RobotType& type = run.model().type_of(robot_);
     bool all = true;
-    for (std::size_t j = 0; j < joints_.size(); ++j)
+    for (std::size_t j = 0; j < joints_.size(); ++j) {
+        if (follows(type, joints_[j])) continue;
         all =
             run.order(robot_, SetJoint{joints_[j], 0, MotorMode::kPosition, at[j].position, -1}).ok() && all;
+    }
     return all;
 }
 

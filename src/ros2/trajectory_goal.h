@@ -21,6 +21,9 @@ struct TrajectoryJoints {
 
     /// Those of a robot; none: it cannot follow trajectories.
     static TrajectoryJoints of(const RobotType& type);
+    /// These of a robot, by its controller on board if it has one. Those that follow other joints may be
+    /// named, and get no orders.
+    static TrajectoryJoints of(const RobotType& type, std::vector<JointId> joints);
 };
 
 /// See the top of the file.

@@ -6,6 +6,7 @@
 #include "ros2_types/messages/command_messages.h"
 #include "ros2_types/messages/control_messages.h"
 #include "ros2_types/messages/gazebo_services.h"
+#include "ros2_types/messages/gripper_messages.h"
 #include "ros2_types/messages/parameter_services.h"
 #include "ros2_types/messages/simulation_entity_services.h"
 #include "ros2_types/messages/simulation_run_services.h"
@@ -170,6 +171,32 @@ TEST(PublishedHashes, SimulationServicesOfVersion1) {
     expect_hash<SpawnEntity>("d4c086345d4194a5fc4c9ae45095736ca4062b5cdac4d06a42dec93d683e03cf");
     expect_hash<SetEntityState>("ca210e7d2b66629ae133c8e1edf5246e618106d75c78ed0556c0e7a33c59ee5e");
     expect_hash<LoadWorld>("f210682338f195f6f06191b46b20ec4992bddf485d33e2cffab2dd15341b4e3e");
+}
+
+TEST(PublishedHashes, Grippers) {
+    expect_hash<GripperTarget>("57eb8f326c9889ca8bb34ead82cc94cc09bf6bc5c3b6c09546dca3a00b589890");
+    expect_hash<GripperCommand>("e17c0e644eccf14bea84a0a93e0977182872c2eb7873ca6694900059b46dbc84");
+    expect_hash<GripperCommand::Goal>("607d9f41eb241e1922e90f02125e87ae6bfb78f7f64a71dc92630263d01f8b6d");
+    expect_hash<GripperCommand::Result>("bf512d5aa6a0e4fe4d8be22b2ec4a1973c3d250fa1f65e47450322c25c45c0a0");
+    expect_hash<GripperCommand::Feedback>("8f7c520077bab528bb9161ee3b83c81eee1f8aecadb8922ce82c79d667a819c4");
+    expect_hash<FeedbackMessage<GripperCommand>>(
+        "392ff03fcd872f9dc2405cbeb2897fcf011ad9998458b6aa85c603b8a49e431d");
+    expect_hash<SendGoal<GripperCommand>>("6bf8cc4ce80cd499e7dd3258c03c50c3fa6672b469ff8355339ef1df77fcd212");
+    expect_hash<GetResult<GripperCommand>>(
+        "7e60a7606063d4a2728d21badac099e68b734a196ac3ab42d1d4c668eb0bb3cd");
+    expect_hash<ParallelGripperCommand>("adfd3c1ebe8abc38ebcc0e454b6423d291d4010dd5697d14eca5b9be4726ae18");
+    expect_hash<ParallelGripperCommand::Goal>(
+        "412807b6b6acf2bf406fb0cf3b5c8f84286cd4e4d425734155aa1ff41caa0063");
+    expect_hash<ParallelGripperCommand::Result>(
+        "51acbcd62aa44097d3877c506eab1146856fa8768628ffbe102c1699152d2afa");
+    expect_hash<ParallelGripperCommand::Feedback>(
+        "ed6f7c4e5aea7f960432663c0e762e001a0a1f5cc0130d126e60041412d0543c");
+    expect_hash<FeedbackMessage<ParallelGripperCommand>>(
+        "c61f4cf99d06c5a3e24bed17c2910bdf66a30d89461e2ac7b5fd538a34b022cc");
+    expect_hash<SendGoal<ParallelGripperCommand>>(
+        "567c37373fed1260adbe047415688c73e4f3e94b2e3982761ecc71fd63d710a7");
+    expect_hash<GetResult<ParallelGripperCommand>>(
+        "e4c7f0e8a831ce5625ed20abcd13796406d945f92ebc7ad5972e0b0d29b381bd");
 }
 
 TEST(PublishedHashes, GazeboMessages) {

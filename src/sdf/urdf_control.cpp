@@ -35,10 +35,12 @@ std::map<std::string, std::string> read_ros2_control(pugi::xml_node robot, const
                                                      Diagnostics& diagnostics) {
     std::map<std::string, std::string> positions;
     for (const auto control : urdf.root().children("ros2_control")) {
-        diagnostics.note(urdf.where(control), "ros2-control",
-                         "of <ros2_control> '" + std::string(control.attribute("name").value()) +
-                             "' only initial positions and mimic joints count",
-                         "Give setpoints to the joints, from a control program or by orders.");
+        diagnostics.note(
+            urdf.where(control), "ros2-control",
+            "of <ros2_control> '" + std::string(control.attribute("name").value()) +
+                "' only initial positions and mimic joints count",
+            "Give setpoints to the joints, from a control program or by orders; nodes of ROS 2 get "
+            "the controllers of a YAML file by --ros2-controllers.");
         for (const auto interface : control.children("joint")) {
             const std::string name = interface.attribute("name").value();
             auto joint = robot.find_child_by_attribute("joint", "name", name.c_str());

@@ -13,11 +13,18 @@ GAIN = "<joint_name>{}</joint_name><position_p_gain>{}</position_p_gain><positio
 GAINS = ((4000, 200), (4000, 200), (2000, 50), (100, 1), (200, 2), (20, 0.2))  # N m/rad and N m s/rad of the joints
 
 
+CONTROLLERS = """controller_manager: {ros__parameters: {
+  manipulator_controller: {type: joint_trajectory_controller/JointTrajectoryController},
+  gone_controller: {type: joint_trajectory_controller/JointTrajectoryController}}}
+manipulator_controller: {ros__parameters: {joints: [%s], command_interfaces: [position]}}
+gone_controller: {ros__parameters: {joints: [elbw]}}
+"""
+
+
 class Trajectories(WithRun):
-    def command(self, world):
-        self.start(world=world)
-        seen = self.report_of("arm_commander.py", "/arm/joint_trajectory_controller/follow_joint_trajectory", "/arm/joint_states",
-                              *JOINTS, seconds=90)
+    def command(self, world, *words, controller="joint_trajectory_controller"):
+        self.start(*words, world=world)
+        seen = self.report_of("arm_commander.py", f"/arm/{controller}/follow_joint_trajectory", "/arm/joint_states", *JOINTS, seconds=90)
         followed, cancelled, replaced = (seen[name] for name in ("followed", "cancelled", "replaced"))
         self.assertEqual([followed[name] for name in ("accepted", "status", "code")], [True, SUCCEEDED, 0], followed)
         self.assertGreater(followed["feedback"], 5)
@@ -36,6 +43,13 @@ class Trajectories(WithRun):
 
     def test_joints_without_a_controller_follow(self):
         self.command(ARM)
+
+    def test_a_controller_has_the_name_of_its_file(self):
+        file = self.folder / "controllers.yaml"
+        file.write_text(CONTROLLERS % ", ".join(JOINTS))
+        self.command(ARM, "--ros2-controllers", file, controller="manipulator_controller")
+        self.assertIn("controllers.yaml:3: the controller 'gone_controller' has no effect", self.said())
+        self.assertIn("did you mean 'elbow'?", self.said())
 
     def test_a_controller_on_board_follows(self):
         text = ARM.read_text()

@@ -2,6 +2,7 @@
 #include <random>
 
 #include "ros2/gazebo_services.h"
+#include "ros2/gripper_action.h"
 #include "ros2/node_parameters.h"
 #include "ros2/trajectory_action.h"
 #include "ros2_types/messages/simulation_run_services.h"
@@ -17,10 +18,26 @@ TEST(Strangers, AnyBytesAreSurvivedByAllServices) {
     const ros2::EntityId node = run.transport.add_node("/", "roboss");
     ros2::GazeboServices gazebo(run.transport, node, "hall", *run.services);
     ros2::NodeParameters parameters(run.transport, node, "/roboss");
-    ros2::TrajectoryAction action(run.transport, node, "/arm/follow", run.control,
-                                  *run.model().find_robot("arm"), true);
+    const RobotId arm = *run.model().find_robot("arm");
+    const auto action = ros2::trajectory_action(run.transport, node, "/arm/follow", run.control, arm,
+                                                ros2::TrajectoryJoints::of(run.model().type_of(arm)), true);
+    const ros2::Controllers controllers = ros2::parse_controllers("hands.yaml", R"(
+controller_manager: {ros__parameters: {
+  hand: {type: position_controllers/GripperActionController},
+  claw: {type: parallel_gripper_action_controller/GripperActionController}}}
+hand: {ros__parameters: {joint: elbow}}
+claw: {ros__parameters: {joint: elbow}}
+)")
+                                              .value();
+    std::vector<std::unique_ptr<ros2::RobotAction>> grippers;
+    for (const ros2::RobotController& gripper :
+         ros2::controllers_of(controllers, run.model().type_of(arm), "arm"))
+        grippers.push_back(ros2::gripper_action(run.transport, node, "/arm/" + gripper.entry->name,
+                                                run.control, arm, gripper));
+    ASSERT_EQ(grippers.size(), 2u);
     run.take = [&](const ros2::Incoming& call) {
-        EXPECT_TRUE(gazebo.take(call) || parameters.take(call) || action.take(call));
+        EXPECT_TRUE(gazebo.take(call) || parameters.take(call) || action->take(call) ||
+                    grippers[0]->take(call) || grippers[1]->take(call));
     };
     std::mt19937 random(11);
     const std::string sane = ros2::to_cdr(si::GetEntities::Request{{"b", {{1}}, {{"x"}, 1}, {3, {{}, {}}}}});

@@ -20,13 +20,14 @@ constexpr const char* kAction = "/arm/follow_joint_trajectory";
 /// An arm that is playing, with its action.
 struct Arm {
     TestRun run;
-    std::unique_ptr<ros2::TrajectoryAction> action;
+    std::unique_ptr<ros2::RobotAction> action;
 
     explicit Arm(const std::string& world = ball_and_arm()) : run(world) {
         namespace si = ros2::simulation_interfaces;
-        action = std::make_unique<ros2::TrajectoryAction>(run.transport,
-                                                          run.transport.add_node("/arm", "robot"), kAction,
-                                                          run.control, *run.model().find_robot("arm"), false);
+        const RobotId arm = *run.model().find_robot("arm");
+        action = ros2::trajectory_action(run.transport, run.transport.add_node("/arm", "robot"), "/arm",
+                                         run.control, arm,
+                                         ros2::TrajectoryJoints::of(run.model().type_of(arm)), false);
         run.take = [this](const ros2::Incoming& call) { EXPECT_TRUE(action->take(call)); };
         run.advance = [this](std::int64_t now_ms) { action->advance(now_ms); };
         run.call<si::SetSimulationState>("/set_simulation_state", {{si::SimulationState::kPlaying}});
@@ -105,6 +106,31 @@ TEST(TrajectoryAction, ToleranceOnTheWayEndsTheGoal) {
     const auto result = arm.result(arm.give(1, goal));
     EXPECT_EQ(result.status, GoalStatus::kAborted);
     EXPECT_EQ(result.result.error_code, Action::Result::kPathToleranceViolated) << result.result.error_string;
+}
+
+TEST(TrajectoryAction, TrajectoriesOfTheTopicAreFollowedToo) {
+    Arm arm;
+    const ros2::Uuid goal = arm.give(1, goal_to(2, 0, 5));
+    arm.run.transport.send("/arm/joint_trajectory", goal_to(0.3, -0.2, 0.3).trajectory);
+    EXPECT_EQ(arm.result(goal).status, GoalStatus::kAborted) << "its place is taken";
+    EXPECT_TRUE(arm.run.until([&] {
+        return std::abs(arm.position("shoulder") - 0.3) < 0.02 &&
+               std::abs(arm.position("elbow") + 0.2) < 0.02;
+    }));
+    arm.run.transport.send("/arm/joint_trajectory", goal_to(2, 0, 5).trajectory);
+    const Tick begin = arm.run.tick();
+    ASSERT_TRUE(arm.run.until([&] { return arm.run.tick() > begin + 500; }));
+    arm.run.transport.send("/arm/joint_trajectory", ros2::JointTrajectory{});
+    ASSERT_TRUE(arm.run.until([&] { return arm.run.tick() > begin + 700; }));
+    const double held = arm.position("shoulder");
+    ASSERT_TRUE(arm.run.until([&] { return arm.run.tick() > begin + 1500; }));
+    EXPECT_NEAR(arm.position("shoulder"), held, 0.05) << "an empty trajectory stops it";
+    EXPECT_TRUE(arm.action->take_notices().empty());
+    arm.run.transport.send("/arm/joint_trajectory",
+                           ros2::JointTrajectory{{}, {"knee"}, {{{1}, {}, {}, {}, {}}}});
+    arm.run.transport.send_bytes("/arm/joint_trajectory", "no message");
+    arm.run.turn(), arm.run.turn();
+    EXPECT_EQ(arm.action->take_notices().size(), 2u);
 }
 
 TEST(TrajectoryAction, GoalsThatCannotBeFollowedAreRefused) {

@@ -9,6 +9,8 @@
 #include "app/processes/crash_report.h"
 #include "core/error_text.h"
 #include "ros2/bridge.h"
+#include "ros2/robot_controllers.h"
+#include "ros2/robot_names.h"
 
 namespace roboss {
 namespace {
@@ -69,6 +71,11 @@ class FaceProcess {
         const ros2::RobotTopics shown(model, face_.topics);
         const ros2::RobotCommands obeyed(model, face_.topics);
         for (const std::string& line : shown.bridge_notices()) member_.report(line);
+        if (face_.topics.controllers) {
+            const auto names = ros2::robot_names(*model, face_.topics.root);
+            for (const std::string& line : ros2::controller_notices(*face_.topics.controllers, *model, names))
+                member_.report(line);
+        }
         for (const ros2::Topic& topic : shown.topics()) say("{}  {}\n", topic.name, topic.type->name);
         for (const ros2::CommandTopic& topic : obeyed.topics())
             say("{}  {}  (drives it)\n", topic.name, topic.type->name);

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cstdlib>
+#include <filesystem>
 #include <memory>
 #include <sstream>
 
@@ -47,6 +48,19 @@ std::string reach_given(const Ros2Options& o) {
     return or_environment("", "ROS_AUTOMATIC_DISCOVERY_RANGE");
 }
 
+/// An option that takes a file, read at once.
+template <class Content>
+void add_file_option(CLI::App& command, const std::string& name,
+                     Result<Content> (*read)(const std::filesystem::path&),
+                     std::shared_ptr<const Content>& content, const std::string& help) {
+    const auto take = [name, read, &content](const std::string& file) {
+        Result<Content> found = read(file);
+        if (!found) throw CLI::ValidationError(name, found.error().message + "; " + found.error().remedy);
+        content = std::make_shared<const Content>(std::move(found).value());
+    };
+    command.add_option_function<std::string>(name, take, help)->type_name("FILE");
+}
+
 }  // namespace
 
 void add_face_options(CLI::App& command, ros2::FaceOptions& face, const std::string& prefix) {
@@ -70,18 +84,11 @@ void add_face_options(CLI::App& command, ros2::FaceOptions& face, const std::str
                      "where each robot is, as /ROBOT/ground_truth (nav_msgs/Odometry)");
     command.add_flag(prefix + "fleet", topics.fleet,
                      "all robots in one message: /fleet/states, /fleet/scans, /fleet/cmd_vel ...");
-    command
-        .add_option_function<std::string>(
-            prefix + "bridge",
-            [&face, prefix](const std::string& file) {
-                Result<ros2::Bridge> bridge = ros2::read_bridge(file);
-                if (!bridge)
-                    throw CLI::ValidationError(prefix + "bridge",
-                                               bridge.error().message + "; " + bridge.error().remedy);
-                face.topics.bridge = std::make_shared<const ros2::Bridge>(std::move(bridge).value());
-            },
-            "YAML file of ros_gz_bridge: the topics of Gazebo that it names have its names and types")
-        ->type_name("FILE");
+    add_file_option(
+        command, prefix + "bridge", ros2::read_bridge, topics.bridge,
+        "YAML file of ros_gz_bridge: the topics of Gazebo that it names have its names and types");
+    add_file_option(command, prefix + "controllers", ros2::read_controllers, topics.controllers,
+                    "YAML file of ros2_control: robots have its joint controllers, by their names");
     command
         .add_option(prefix + "services", face.services.simulation.prefix,
                     "what stands in front of the names of simulation_interfaces, e.g. /gzserver (default: "
@@ -120,6 +127,7 @@ void add_face_arguments(std::vector<std::string>& words, const ros2::FaceOptions
     if (topics.ground_truth) words.emplace_back("--ground-truth");
     if (topics.fleet) words.emplace_back("--fleet");
     if (topics.bridge) words.insert(words.end(), {"--bridge", topics.bridge->file});
+    if (topics.controllers) words.insert(words.end(), {"--controllers", topics.controllers->file});
     if (!face.services.simulation.prefix.empty())
         words.insert(words.end(), {"--services", face.services.simulation.prefix});
 }
