@@ -12,7 +12,7 @@ namespace roboss::ros2 {
 
 namespace {
 
-using Kind = ControllerEntry::Kind;
+using EntryKind = ControllerEntry::Kind;
 
 constexpr std::size_t kNodesMost = 100'000, kControllersMost = 1'000, kJointsMost = 1'000;
 constexpr int kDepthMost = 10;
@@ -20,19 +20,21 @@ constexpr const char* kManager = "controller_manager";
 
 struct KnownType {
     const char* type;
-    Kind kind;
+    EntryKind kind;
     std::optional<MotorMode> mode;  ///< none: the parameter interface_name says it
 };
 constexpr std::array kTypes{
-    KnownType{"joint_trajectory_controller/JointTrajectoryController", Kind::kTrajectory,
+    KnownType{"joint_trajectory_controller/JointTrajectoryController", EntryKind::kTrajectory,
               MotorMode::kPosition},
-    KnownType{"position_controllers/JointGroupPositionController", Kind::kSetpoints, MotorMode::kPosition},
-    KnownType{"velocity_controllers/JointGroupVelocityController", Kind::kSetpoints, MotorMode::kVelocity},
-    KnownType{"effort_controllers/JointGroupEffortController", Kind::kSetpoints, MotorMode::kEffort},
-    KnownType{"forward_command_controller/ForwardCommandController", Kind::kSetpoints, std::nullopt},
-    KnownType{"position_controllers/GripperActionController", Kind::kGripper, MotorMode::kPosition},
-    KnownType{"effort_controllers/GripperActionController", Kind::kGripper, MotorMode::kPosition},
-    KnownType{"parallel_gripper_action_controller/GripperActionController", Kind::kParallelGripper,
+    KnownType{"position_controllers/JointGroupPositionController", EntryKind::kSetpoints,
+              MotorMode::kPosition},
+    KnownType{"velocity_controllers/JointGroupVelocityController", EntryKind::kSetpoints,
+              MotorMode::kVelocity},
+    KnownType{"effort_controllers/JointGroupEffortController", EntryKind::kSetpoints, MotorMode::kEffort},
+    KnownType{"forward_command_controller/ForwardCommandController", EntryKind::kSetpoints, std::nullopt},
+    KnownType{"position_controllers/GripperActionController", EntryKind::kGripper, MotorMode::kPosition},
+    KnownType{"effort_controllers/GripperActionController", EntryKind::kGripper, MotorMode::kPosition},
+    KnownType{"parallel_gripper_action_controller/GripperActionController", EntryKind::kParallelGripper,
               MotorMode::kPosition}};
 
 /// The parameters of a node.
@@ -148,7 +150,8 @@ class ControllersReader {
     }
 
     Result<> set_joints(const YAML::Node& values, ControllerEntry& entry) const {
-        const bool is_gripper = entry.kind == Kind::kGripper || entry.kind == Kind::kParallelGripper;
+        const bool is_gripper =
+            entry.kind == EntryKind::kGripper || entry.kind == EntryKind::kParallelGripper;
         const char* key = is_gripper ? "joint" : "joints";
         const YAML::Node joints = values[key];
         const Error missing =
