@@ -94,6 +94,7 @@ void Writer::on_publication_matched(dds::DataWriter*, const dds::PublicationMatc
             else
                 readers_.erase(reader);
         }
+        participant_.count_match();
         if (on_match_ && status.current_count_change > 0) on_match_();
     } catch (const std::exception&) {  // no memory: the reader does not count
     }

@@ -78,6 +78,7 @@ class Reader : dds::DataReaderListener {
     void on_data_available(dds::DataReader* reader) override;
     void on_subscription_matched(dds::DataReader*, const dds::SubscriptionMatchedStatus& status) override {
         writers_ = static_cast<std::size_t>(std::max(status.current_count, 0));
+        participant_.count_match();
     }
 
     Participant& participant_;

@@ -37,6 +37,7 @@ class FastDdsTransport final : public ros2::Transport {
     std::size_t subscribers(ros2::EntityId publisher) const override;
     std::size_t publishers(ros2::EntityId subscription) const override;
     std::string other_type(ros2::EntityId subscription) const override;
+    std::uint64_t revision() const override { return participant_->matches() + peers_.changes(); }
     bool await_confirmed(ros2::EntityId publisher, std::int64_t ms_max) override;
     std::vector<ros2::Incoming> take(std::int64_t wait_ms) override;
     void on_arrival(std::function<void()> ring) override { inbox_.on_arrival(std::move(ring)); }

@@ -1,6 +1,8 @@
 // The participant: this process as others of a domain see it, and the topics that it has.
 #pragma once
 
+#include <atomic>
+#include <cstdint>
 #include <memory>
 #include <string>
 #include <unordered_map>
@@ -38,6 +40,10 @@ class Participant : EndpointListener {
     dds::DomainParticipant& operator*() { return *participant_; }
     dds::Publisher& publisher() { return *publisher_; }
     dds::Subscriber& subscriber() { return *subscriber_; }
+    /// An endpoint here has met one elsewhere, or lost it.
+    void count_match() { ++matches_; }
+    /// How often that was so.
+    std::uint64_t matches() const { return matches_; }
 
   private:
     struct Use {
@@ -52,6 +58,7 @@ class Participant : EndpointListener {
     bool register_type(const std::string& name);
 
     Peers& peers_;
+    std::atomic<std::uint64_t> matches_{0};
     dds::DomainParticipant* participant_ = nullptr;
     dds::Publisher* publisher_ = nullptr;
     dds::Subscriber* subscriber_ = nullptr;

@@ -22,6 +22,7 @@ void Peers::found(const Guid& guid, const Peer& peer) {
     const std::lock_guard lock(mutex_);
     if (peers_.size() >= kMaxPeers && !peers_.contains(guid)) return;
     peers_[guid] = peer;
+    ++changes_;
     of_topic_[peer.topic.name].insert(guid);
     if (const auto own = own_.find(peer.topic.name); own != own_.end()) compare(guid, peer, own->second);
 }
@@ -35,6 +36,7 @@ void Peers::lost(const Guid& guid) {
         if (topic->second.empty()) of_topic_.erase(topic);
     }
     peers_.erase(at);
+    ++changes_;
 }
 
 void Peers::add_own(const DdsTopic& topic, const std::string& hash) {

@@ -2,6 +2,8 @@
 // this process: they match by name alone, so messages would be misread or never arrive.
 #pragma once
 
+#include <atomic>
+#include <cstdint>
 #include <map>
 #include <mutex>
 #include <set>
@@ -39,6 +41,8 @@ class Peers {
     std::string other_type(const std::string& topic) const;
     /// The peer with this name; an empty one: it is not known.
     Peer of(const Guid& guid) const;
+    /// How often a peer was found or lost.
+    std::uint64_t changes() const { return changes_; }
 
   private:
     struct Own {
@@ -50,6 +54,7 @@ class Peers {
     void compare(const Guid& guid, const Peer& peer, const Own& own);
 
     Notices& notices_;
+    std::atomic<std::uint64_t> changes_{0};
     mutable std::mutex mutex_;
     std::map<Guid, Peer> peers_;
     std::unordered_map<std::string, std::set<Guid>> of_topic_;

@@ -73,6 +73,10 @@ std::size_t FoxgloveTransport::subscribers(EntityId publisher) const {
     return hub_->subscribers(publisher);
 }
 
+std::uint64_t FoxgloveTransport::revision() const {
+    return hub_->revision();
+}
+
 std::size_t FoxgloveTransport::publishers(EntityId subscription) const {
     return hub_->publishers(subscription);
 }

@@ -58,6 +58,7 @@ class FoxgloveTransport final : public ros2::Transport {
     std::size_t publishers(ros2::EntityId subscription) const override;
     /// Empty: a client that wants to publish another type is refused when it says so.
     std::string other_type(ros2::EntityId) const override { return {}; }
+    std::uint64_t revision() const override;
     bool await_confirmed(ros2::EntityId publisher, std::int64_t ms_max) override;
     std::vector<ros2::Incoming> take(std::int64_t wait_ms) override;
     void on_arrival(std::function<void()> ring) override;

@@ -3,6 +3,7 @@
 // goes to it. So its rules can be tested without sockets. Every function may be called by any thread.
 #pragma once
 
+#include <atomic>
 #include <condition_variable>
 #include <deque>
 #include <functional>
@@ -58,6 +59,7 @@ class Hub {
     void reply(EntityId service, const ros2::CallId& call, std::string_view cdr);
     std::size_t subscribers(EntityId publisher) const;
     std::size_t publishers(EntityId subscription) const;
+    std::uint64_t revision() const { return revision_; }
     bool await_sent(EntityId publisher, std::int64_t ms_max);
     std::vector<ros2::Incoming> take(std::int64_t wait_ms);
     void on_arrival(std::function<void()> ring);
@@ -186,6 +188,7 @@ class Hub {
     EntityId announced_ = 0;                         // entities up to this one are known to clients
     std::map<std::string, TopicUse> topics_;
     std::map<ClientNumber, Client> clients_;
+    std::atomic<std::uint64_t> revision_{0};  // another one after each request that may change who reads what
     ClientNumber last_client_ = 0;
     std::uint64_t time_ns_ = 0;  // of the last Clock
     KeepLast<Arrival> inbox_;

@@ -25,6 +25,7 @@ ros2::CallId call_id(ClientNumber client, std::int64_t number) {
 
 ClientNumber Hub::enter(const std::string& name, std::function<void()> wake_client) {
     const std::lock_guard lock(mutex_);
+    ++revision_;
     Client& client = clients_[++last_client_];
     client.name = name, client.wake = std::move(wake_client);
     send(client, server_info(session_));
@@ -40,6 +41,7 @@ void Hub::leave(ClientNumber number) {
     while (!found->second.publisher_of.empty())
         unsubscribe(found->second, found->second.publisher_of.begin()->first);
     clients_.erase(found);
+    ++revision_;
     sent_.notify_all();
 }
 
@@ -63,6 +65,7 @@ void Hub::take_text(ClientNumber number, std::string_view frame) {
         return send(found->second,
                     status(Level::kError, request.error().message + " [" + request.error().code + "]"));
     std::visit([&](const auto& what) { obey(found->second, what); }, request.value());
+    ++revision_;
 }
 
 void Hub::take_binary(ClientNumber number, std::string_view frame) {

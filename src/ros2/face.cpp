@@ -175,8 +175,8 @@ void Face::observe(Bus& bus) {
 /// Lockstep begins once a node is there for each of its topics and no subscription has come for a while: a
 /// node that is not yet connected would miss the first messages, and the world would wait for its answer.
 bool Face::is_ready(std::int64_t now_ms) {
-    std::vector<std::size_t> count = count_subscribers();
-    if (count != subscribers_) subscribers_ = std::move(count), settled_ms_ = now_ms;
+    if (const std::vector<std::size_t>& count = count_subscribers(); count != subscribers_)
+        subscribers_ = count, settled_ms_ = now_ms;
     std::vector<std::size_t> absent;
     for (const std::size_t topic : lockstep_->topics()) {
         const auto id = subscriptions_.find(commands_->topics()[topic].name);
@@ -195,7 +195,7 @@ bool Face::is_ready(std::int64_t now_ms) {
 /// that they missed. Other subscriptions to such a topic get them twice; so at first only topics without
 /// subscriptions.
 void Face::publish_to_late(std::int64_t now_ms) {
-    const std::vector<std::size_t> count = count_subscribers();
+    const std::vector<std::size_t>& count = count_subscribers();
     std::vector<bool> late(count.size());
     for (std::size_t t = 0; t < count.size(); ++t)
         late[t] = count[t] > subscribers_[t] &&
@@ -227,11 +227,15 @@ void Face::publish_latched() {
             transport_.publish(publisher_of_[message.topic], message.bytes);
 }
 
-std::vector<std::size_t> Face::count_subscribers() const {
-    std::vector<std::size_t> count(publisher_of_.size());
-    for (std::size_t t = 0; t < count.size(); ++t)
-        count[t] = publisher_of_[t] == 0 ? 0 : transport_.subscribers(publisher_of_[t]);
-    return count;
+/// By topic of topics_->topics(). Of thousands of topics it is counted only when somebody came or went.
+const std::vector<std::size_t>& Face::count_subscribers() {
+    const std::uint64_t revision = transport_.revision();
+    if (counted_at_ == revision) return counted_;
+    counted_at_ = revision;
+    counted_.resize(publisher_of_.size());
+    for (std::size_t t = 0; t < counted_.size(); ++t)
+        counted_[t] = publisher_of_[t] == 0 ? 0 : transport_.subscribers(publisher_of_[t]);
+    return counted_;
 }
 
 void Face::publish_observed(const std::vector<bool>& wanted) {

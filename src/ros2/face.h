@@ -83,7 +83,7 @@ class Face {
     void publish_observed(const std::vector<bool>& wanted);
     void publish_to_late(std::int64_t now_ms);
     void confirm(const std::vector<EntityId>& sent);
-    std::vector<std::size_t> count_subscribers() const;
+    const std::vector<std::size_t>& count_subscribers();
     Result<std::optional<Sample>> measure(RobotId robot, std::size_t sensor);
     void answer_when_complete(Bus& bus);
     void report_waiting(std::int64_t now_ms, const std::vector<std::size_t>& topics, const char* what);
@@ -112,6 +112,9 @@ class Face {
     std::int64_t settled_ms_ = 0;
     bool ready_ = false;
 
+    std::vector<std::size_t> counted_;           // subscribers, by topic
+    std::optional<std::uint64_t> counted_at_{},  // revision of the transport then; none: count
+        types_followed_at_{};                    // when types were compared last
     std::int64_t types_followed_ms_ = 0;
     Tick shown_ = -1;           // the observation whose sensors were published last
     std::size_t welcomes_ = 0;  // of the Client, when shown_ was set

@@ -53,7 +53,7 @@ void Face::open_topics() {
     for (const Topic& topic : topics_->topics())
         (void)take_over(publishers_, now, topic.name, topic.type->name, node_of(topic.robot));
     close(std::exchange(publishers_, std::move(now)));  // first, for a topic may have another type now
-    publisher_of_.clear();
+    publisher_of_.clear(), counted_at_.reset();
     for (const Topic& topic : topics_->topics()) {
         Endpoint& endpoint = publishers_[topic.name];
         if (endpoint.id == 0) {
@@ -72,7 +72,7 @@ void Face::open_commands() {
     for (const CommandTopic& topic : commands_->topics())
         (void)take_over(subscriptions_, now, topic.name, topic.type->name, node_of(topic.robot));
     close(std::exchange(subscriptions_, std::move(now)));
-    command_of_.clear();
+    command_of_.clear(), types_followed_at_.reset();
     for (std::size_t c = 0; c < commands_->topics().size(); ++c) {
         const CommandTopic& topic = commands_->topics()[c];
         Endpoint& endpoint = subscriptions_[topic.name];
@@ -90,6 +90,9 @@ void Face::open_commands() {
 void Face::follow_types(std::int64_t now_ms) {
     if (now_ms - types_followed_ms_ < kFollowTypes_ms) return;
     types_followed_ms_ = now_ms;
+    const std::uint64_t revision = transport_.revision();
+    if (types_followed_at_ == revision) return;
+    types_followed_at_ = revision;
     bool changed = false;
     for (std::size_t c = 0; c < commands_->topics().size(); ++c) {
         const CommandTopic& topic = commands_->topics()[c];

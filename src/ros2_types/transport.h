@@ -90,6 +90,9 @@ class Transport {
     /// The type that publishers elsewhere have on the topic of a subscription, if none has the subscription's
     /// own: "geometry_msgs/msg/TwistStamped". Empty: there are no such publishers.
     virtual std::string other_type(EntityId subscription) const = 0;
+    /// Another number whenever others may have changed what subscribers(), publishers() and other_type() say:
+    /// asked thousands of times in a second, these cost more than all the rest.
+    virtual std::uint64_t revision() const = 0;
     /// Waits until all reliable subscriptions have confirmed all messages. False: not within this time.
     virtual bool await_confirmed(EntityId publisher, std::int64_t ms_max) = 0;
 
@@ -105,6 +108,6 @@ class Transport {
 /// `roboss_ros2_transport` of the shared library returns a Transport, or null and why in `problem`.
 using OpenTransport = Transport* (*)(int abi, const TransportOptions& options, Error& problem);
 /// Version of this interface; a library of another one is refused.
-inline constexpr int kTransportAbi = 3;
+inline constexpr int kTransportAbi = 4;
 
 }  // namespace roboss::ros2

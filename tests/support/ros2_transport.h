@@ -63,6 +63,7 @@ class TestTransport : public ros2::Transport {
         const auto other = other_types.find(names.at(subscription));
         return other == other_types.end() || other->second == types.at(other->first) ? "" : other->second;
     }
+    std::uint64_t revision() const override { return ++revision_; }  // tests change what it says at any time
     bool await_confirmed(ros2::EntityId, std::int64_t) override { return true; }
     std::vector<ros2::Incoming> take(std::int64_t) override { return std::exchange(arrived, {}); }
     std::vector<std::string> take_notices() override { return {}; }
@@ -107,6 +108,7 @@ class TestTransport : public ros2::Transport {
     std::map<std::string, std::string> other_types;  // the types that they have, by topic
 
   private:
+    mutable std::uint64_t revision_ = 0;
     ros2::EntityId last_ = 0;
     std::int64_t calls_ = 0;
 };
