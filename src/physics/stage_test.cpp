@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <numeric>
 #include <set>
 #include <string>
 
@@ -89,6 +90,31 @@ TEST(SolverProfile, TellsOfTheLargestIslandAndItsSolution) {
     EXPECT_EQ(profile.residual, sim.residual_max);
     EXPECT_LE(profile.friction_error, sim.model->accuracy.friction_tolerance);
     EXPECT_EQ(profile.friction_misses, 0u);
+}
+
+std::uint64_t sum_of(const SolveCounts& counts) {
+    return std::accumulate(counts.begin(), counts.end(), std::uint64_t{0});
+}
+std::uint64_t count_of(const SolveCounts& counts, SolveMethod method) {
+    return counts[static_cast<std::size_t>(method)];
+}
+
+TEST(SolverProfile, CountsByWhichMethodPartsWereSolved) {
+    Simulation stack(stack_of_ten());
+    const SolverProfile standard = solver_profile_of(stack, 100);
+    EXPECT_GE(sum_of(standard.velocities), 100u);
+    EXPECT_EQ(count_of(standard.velocities, SolveMethod::kBodiesNewton) +
+                  count_of(standard.velocities, SolveMethod::kBodiesSweeps),
+              sum_of(standard.velocities));
+    World world = stack_of_ten();
+    world.accuracy.emplace_back().setting = "fast";
+    Simulation soft(world);
+    EXPECT_EQ(count_of(solver_profile_of(soft, 100).velocities, SolveMethod::kSoft), 100u);
+    World one = empty_world(2e-3);
+    place(one, ground(surface(0.9)), "ground");
+    place(one, car(), "car", {{0, 0, 1e-3}, {}});
+    Simulation lone(one);
+    EXPECT_EQ(count_of(solver_profile_of(lone, 100).velocities, SolveMethod::kNewton), 100u);
 }
 
 TEST(SolverProfile, PartsOfAnIslandAreSolvedByThemselves) {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstdint>
 
+#include "physics/solver/solve_method.h"
 #include "physics/stage.h"
 
 namespace roboss {
@@ -22,6 +23,8 @@ struct SolverProfile {
     std::uint64_t friction_solves = 0;  // parts with friction at contacts that push
     std::uint64_t friction_misses = 0;  // of these, whose friction is off by more than friction_tolerance
     double friction_error = 0;          // the worst of all parts (friction::BoundError)
+    // Parts that were solved for velocities, and for displacements, by method
+    SolveCounts velocities{}, displacements{};
 
     /// One contact island in one tick.
     void add_island(std::size_t robots, std::size_t in_largest_part, int its_iterations) {
@@ -47,6 +50,7 @@ struct SolverProfile {
         residual = std::max(residual, other.residual);
         friction_solves += other.friction_solves, friction_misses += other.friction_misses;
         friction_error = std::max(friction_error, other.friction_error);
+        add_solves(other.velocities, velocities), add_solves(other.displacements, displacements);
         return *this;
     }
     bool operator==(const SolverProfile&) const = default;

@@ -174,9 +174,11 @@ template <class A> void field(A& a, Of<A, IslandResult>& m) {
 }
 template <class A> void field(A& a, Of<A, SolverProfile>& m) {
     auto& [islands, iterations, iterations_most, largest_island, most_contacts, largest_part, residual, friction_solves, friction_misses,
-           friction_error] = m;
+           friction_error, velocities, displacements] = m;
     fields(a, islands, iterations, iterations_most, largest_island, most_contacts, largest_part, residual, friction_solves, friction_misses,
            friction_error);
+    for (auto* counts : {&velocities, &displacements})
+        for (auto& count : *counts) compact(a, count);
 }
 template <class A> void field(A& a, Of<A, StepProfile>& m) {
     auto& [stages, solver] = m;

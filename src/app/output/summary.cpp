@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <numeric>
+
 #include <nlohmann/json.hpp>
 
 #include "app/output/cannot_write.h"
@@ -34,6 +36,24 @@ double ratio(double part, double all) {
     return all > 0 ? part / all : 0.0;
 }
 
+/// "newton 97.2 %, at_rest 2.8 %" of the parts that were solved.
+std::string methods_text(const SolveCounts& counts) {
+    const auto all = static_cast<double>(std::accumulate(counts.begin(), counts.end(), std::uint64_t{0}));
+    std::string text;
+    for (std::size_t m = 0; m < kSolveMethods; ++m)
+        if (counts[m] > 0)
+            text += fmt::format("{}{} {:.3g} %", text.empty() ? "" : ", ", kSolveMethodNames[m],
+                                100 * static_cast<double>(counts[m]) / all);
+    return text.empty() ? "none" : text;
+}
+
+nlohmann::ordered_json methods_json(const SolveCounts& counts) {
+    nlohmann::ordered_json o = nlohmann::ordered_json::object();
+    for (std::size_t m = 0; m < kSolveMethods; ++m)
+        if (counts[m] > 0) o[kSolveMethodNames[m]] = counts[m];
+    return o;
+}
+
 /// What the solver did, for people.
 std::string solver_text(const SolverProfile& p, double ticks, double tolerance) {
     const auto islands = static_cast<double>(p.islands), iterations = static_cast<double>(p.iterations);
@@ -41,11 +61,13 @@ std::string solver_text(const SolverProfile& p, double ticks, double tolerance) 
         "solver            largest contact island {} robots ({} contacts), {} at most solved together\n"
         "iterations        {:.1f} a step; {:.2f} a contact island on average, {} at most\n"
         "balance           of momentum, worst relative residual {:.1e}\n"
-        "friction          off by more than {:g} in {:.2f} % of {} solves, by {:.1e} at most\n",
+        "friction          off by more than {:g} in {:.2f} % of {} solves, by {:.1e} at most\n"
+        "velocities by     {}\n"
+        "displacements by  {}\n",
         p.largest_island, p.most_contacts, p.largest_part, ratio(iterations, ticks),
         ratio(iterations, islands), p.iterations_most, p.residual, tolerance,
         100 * ratio(static_cast<double>(p.friction_misses), static_cast<double>(p.friction_solves)),
-        p.friction_solves, p.friction_error);
+        p.friction_solves, p.friction_error, methods_text(p.velocities), methods_text(p.displacements));
 }
 
 nlohmann::ordered_json solver_json(const SolverProfile& p, double ticks) {
@@ -60,7 +82,9 @@ nlohmann::ordered_json solver_json(const SolverProfile& p, double ticks) {
             {"friction_solves", p.friction_solves},
             {"friction_missed_share",
              ratio(static_cast<double>(p.friction_misses), static_cast<double>(p.friction_solves))},
-            {"friction_error_worst", p.friction_error}};
+            {"friction_error_worst", p.friction_error},
+            {"velocities_by_method", methods_json(p.velocities)},
+            {"displacements_by_method", methods_json(p.displacements)}};
 }
 
 }  // namespace

@@ -36,12 +36,15 @@ bool BodySolver::solve(const BodyPart& part, std::vector<double>& v, SolveReport
     iterations_ = 0, swept_ = analysed_ = false;
     take(part, v);
     fill_ = sweeps_may_settle(accuracy) ? find_fill() : Fill::kLittle;
+    SolveMethod method = SolveMethod::kBodiesSweeps;
     bool balances = position_ ? settle_displacement(part) : settle_velocities(accuracy);
     if (!balances) {
         prepare_factor();
-        balances = (position_ && displace()) || iterate(accuracy);
+        balances = position_ && displace();
+        method = balances ? SolveMethod::kBodiesActiveSet : SolveMethod::kBodiesNewton;
+        balances = balances || iterate(accuracy);
     }
-    report = {iterations_, residual_};
+    report = {iterations_, residual_, method};
     if (balances) give(part, v);
     return balances;
 }
@@ -388,7 +391,7 @@ double BodySolver::friction_error() const {
 /// Newton::iterate; beyond that, friction bounds are checked once more when momentum balances.
 bool BodySolver::iterate(const Accuracy& accuracy) {
     constexpr int kCoupledTries = 3, kChecks = 10;
-    // Iterations cost little here, next to the interior point method that an island is left to in the end.
+    // Iterations cost little here, next to the sweeps over joints that a part is left to in the end.
     constexpr int kPatience = 3;
     start();
     int bound_updates = 0, coupled_tries = 0, stalls = 0, checks = 0;

@@ -76,6 +76,7 @@ bool choose_drifting(const Model& model, std::span<const RobotWork> robots, Isla
 void solve_displacement(const Model& model, IslandScratch& s, std::size_t solved, StepReport& report) {
     const IslandSolver::Problem problem{model.accuracy, s.robots, s.offsets, s.rows, true};
     report.iterations += s.solver.solve(problem, s.displacement, s.team, solved).iterations;
+    if (s.group.profiles_solver) add_solves(s.solver.solves(), report.profile.solver.displacements);
 }
 
 /// N m s: what the rows of swept contacts between robots lack of conserving angular momentum. They push both
@@ -396,7 +397,10 @@ void ContactIsland::solve_velocities() {
     const IslandSolver::Problem problem{model_.accuracy, s_.robots, s_.offsets, s_.rows};
     const SolveReport solved = s_.solver.solve(problem, s_.v, s_.team);
     largest_part_ = s_.solver.largest_part();
-    if (s_.group.profiles_solver) s_.solver.profile_friction(problem, report_.profile.solver);
+    if (s_.group.profiles_solver) {
+        s_.solver.profile_friction(problem, report_.profile.solver);
+        add_solves(s_.solver.solves(), report_.profile.solver.velocities);
+    }
     report_.iterations += solved.iterations;
     report_.residual = std::max(report_.residual, solved.residual);
     ROBOSS_CHECK(s_.v.size() == s_.v_before.size(), std::to_string(s_.v.size()));

@@ -45,10 +45,13 @@ SolveReport IslandParts::solve(Problem p, std::vector<double>& v, const Team& te
     largest_part_ = static_cast<int>(count);
     SolveReport report;
     in_parts_ = false;
-    if (is_plain_body(p) && solvers_[0].islands.solve_plainly(p, v, report)) return report;
+    solves_ = {};
+    const auto count_solve = [&] { ++solves_[static_cast<std::size_t>(report.method)]; };
+    if (is_plain_body(p) && solvers_[0].islands.solve_plainly(p, v, report)) return count_solve(), report;
     if (!has_parts(p)) {
         solvers_[0].islands.share_with(team);
-        return solvers_[0].islands.solve(p, v);
+        report = solvers_[0].islands.solve(p, v);
+        return count_solve(), report;
     }
     in_parts_ = true;
     prepare(p, v.size());
@@ -142,6 +145,7 @@ void IslandParts::solve_changed(const Problem& p, const Team& team, std::vector<
     });
     for (std::size_t k = 0; k < to_solve_.size(); ++k) {
         report.iterations += reports_[k].iterations;
+        ++solves_[static_cast<std::size_t>(reports_[k].method)];
         report.residual = std::max(report.residual, reports_[k].residual);
         largest_part_ = std::max(largest_part_, static_cast<int>(robots_.of(to_solve_[k]).size()));
     }

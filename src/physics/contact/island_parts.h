@@ -34,6 +34,8 @@ class IslandParts {
     int largest_part() const { return largest_part_; }
     /// What friction is off by in the parts of the last call, if that solved for velocities.
     void profile_friction(const Problem& p, SolverProfile& profile) const;
+    /// The parts that the last call solved, by method.
+    const SolveCounts& solves() const { return solves_; }
 
   private:
     /// The two robots of a contact (numbers in the problem); a == b if it joins none.
@@ -86,6 +88,7 @@ class IslandParts {
     UnionFind joined_;
     bool in_parts_ = false;  // the last call solved them
     int largest_part_ = 0;
+    SolveCounts solves_{};
     std::vector<std::uint32_t> robot_of_;     // by degree of freedom
     std::vector<Ends> ends_;                  // by contact
     std::vector<std::uint32_t> part_of_;      // by robot

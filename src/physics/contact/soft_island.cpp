@@ -43,7 +43,9 @@ void ContactIsland::solve_soft() {
         s_.soft.take(soft_island());
     }
     s_.soft.give_impulses(soft_island());
-    if (s_.group.profiles_solver) profile_island(static_cast<int>(members_.size()));
+    if (!s_.group.profiles_solver) return;
+    profile_island(static_cast<int>(members_.size()));
+    ++report_.profile.solver.velocities[static_cast<std::size_t>(SolveMethod::kSoft)];
 }
 
 /// Looks for shapes that the solved motion hits and that it did not touch; false if there are none.

@@ -394,7 +394,8 @@ class LaneStep final : public LaneStepper {
 
     void find_displacement(const Model& model, Lockstep<T>& together) {
         displacement_ = solution_;
-        if (together.any() && together(split_))
+        displaced_ = together.any() && together(split_);
+        if (displaced_)
             solve_displacement(problem(model), together);
         else if (has_free_bodies())
             take_mean_displacement(model.dt_s);
@@ -521,6 +522,8 @@ class LaneStep final : public LaneStepper {
         for (std::size_t i = 0; i < kLanesOf<T>; ++i) {
             if (!is_in(together, i)) continue;
             profile.add_island(1, 1, static_cast<int>(lane(solved_.iterations, i)));
+            ++profile.velocities[static_cast<std::size_t>(SolveMethod::kNewton)];
+            profile.displacements[static_cast<std::size_t>(SolveMethod::kNewton)] += displaced_ ? 1 : 0;
             if (lane(friction_error_.largest, i) > 0) profile.add_friction(lane(error, i), tolerance);
         }
     }
@@ -566,6 +569,7 @@ class LaneStep final : public LaneStepper {
     Mask split_{false}, free_{false}, pushed_{false};
     LaneContacts found_{kLanesOf<T>};
     bool on_plane_ = false;             // contacts_ are not from found_
+    bool displaced_ = false;            // the displacement was solved for
     Vec3T<Wide> point_;                 // of one contact
     std::vector<Vec3T<T>> velocities_;  // floats: of the contact points, before the tick
 };

@@ -116,43 +116,48 @@ void IslandSolver::step_as_swept(const Problem& p, std::vector<double>& v, Repor
 bool IslandSolver::continue_at_rest(const Problem& p, std::vector<double>& v, Report& report) {
     if (p.again || !hardly_moves(p.rows)) return false;
     Lockstep<double> alone;
-    carried_.clear();
-    for (const ContactRow& row : p.rows.contacts) carried_.push_back(row.normal.impulse);
     start_as_expected(p, alone, v, report);
     if (report.residual <= plan_.couple_from && solve_coupled(p, alone, v, report)) return true;
     return_to_beginning(p, v);
-    for (std::size_t c = 0; c < carried_.size(); ++c) p.rows.contacts[c].normal.impulse = carried_[c];
     return false;
 }
 
+void IslandSolver::keep_beginning(const Problem& p, const std::vector<double>& v) {
+    v_beginning_ = v;
+    friction::keep_bounds(p.rows, start_bounds_);
+    carried_.clear();
+    for (const ContactRow& row : p.rows.contacts) carried_.push_back(row.normal.impulse);
+}
+
 void IslandSolver::return_to_beginning(const Problem& p, std::vector<double>& v) {
-    v = v_before_sweeps_;
+    v = v_beginning_;
     take_velocities(p, v);
     friction::set_bounds(p.rows, start_bounds_);
+    for (std::size_t c = 0; c < carried_.size(); ++c) p.rows.contacts[c].normal.impulse = carried_[c];
 }
 
 /// Sweeps, if they settle the part. Else coupled steps of Newton's method from where they ended. Where these
 /// begin close to the balance and fail, few rows are other than they seem: a few sweeps from there settle
 /// them. Where they cannot begin, the sweeps go on. In the end Newton's method from the friction bounds that
-/// the sweeps found. False, and back to the start, if momentum does not balance then.
-bool IslandSolver::solve_by_sweeps(const Problem& p, std::vector<double>& v, Report& report) {
+/// the sweeps found. None if momentum does not balance then.
+std::optional<SolveMethod> IslandSolver::solve_by_sweeps(const Problem& p, std::vector<double>& v,
+                                                         Report& report) {
     constexpr int kTries = 6, kLongMost = 3;  // of them, from so many series of sweeps
     constexpr int kFewSweeps = 20;
     Lockstep<double> alone;
-    v_before_sweeps_ = v;
-    if (hessian_.couples() && continue_at_rest(p, v, report)) return true;
+    if (hessian_.couples() && continue_at_rest(p, v, report)) return SolveMethod::kAtRest;
     const SweepPlan plan = sweep_plan(p);
     const SweepReport swept = sweeps_.run(p, plan, v);
     if (swept.settled) {
         take_swept(p, v);
         report.iterations += swept.iterations();
         report.residual = 0;
-        return true;
+        return SolveMethod::kSweeps;
     }
     for (int tries = 1, longs = 1; hessian_.couples(); ++tries) {
         step_as_swept(p, v, report);
         const bool is_close = report.residual <= plan_.couple_from;
-        if (is_close && solve_coupled(p, alone, v, report)) return true;
+        if (is_close && solve_coupled(p, alone, v, report)) return SolveMethod::kSweptNewton;
         if (tries == kTries || (!is_close && longs == kLongMost)) break;
         if (is_close)
             sweeps_.take_up(p, kFewSweeps, v);  // from the impulses at which Newton's method gave up
@@ -161,9 +166,51 @@ bool IslandSolver::solve_by_sweeps(const Problem& p, std::vector<double>& v, Rep
     }
     // Sweeps that do not converge still tell the friction bounds better than anything else.
     step_as_swept(p, v, report);
-    if (Newton::iterate(p, alone, v, report, false)) return true;
-    return_to_beginning(p, v);
-    return false;
+    if (Newton::iterate(p, alone, v, report, false)) return SolveMethod::kSweptNewton;
+    return std::nullopt;
+}
+
+/// The rows' compliances, times as soft as they are.
+void IslandSolver::soften(IslandRows& rows, double softer) {
+    const double* compliance = compliances_.data();
+    const auto set = [&](auto& row) {
+        row.compliance = softer * *compliance++;
+        row.stiffness = 1 / row.compliance;
+    };
+    for_each_bounded(rows, set);
+    for_each_disc(rows, set);
+}
+
+/// Newton's method on rows that are soft at first, and harder from round to round: few of them change sides
+/// in a round, and friction bounds follow. After a round that fails the next one takes a shorter way from the
+/// last that did not. In the end rows may stay a little softer than they are: momentum and friction are right
+/// then, and what lies on the rows sinks in by that much more.
+bool IslandSolver::harden(const Problem& p, std::vector<double>& v, Report& report) {
+    constexpr double kSoftest = 1e5, kSoftEnough = 100, kLongest = 0.1, kShortest = 0.7;
+    IslandRows& rows = p.rows;
+    compliances_.clear();
+    for_each_bounded(rows, [&](BoundedRow& row) { compliances_.push_back(row.compliance); });
+    for_each_disc(rows, [&](FrictionDisc& disc) { compliances_.push_back(disc.compliance); });
+    Lockstep<double> alone;
+    double softer = kSoftest, solved_at = kSoftest, way = kLongest;
+    while (softer != solved_at || softer == kSoftest) {
+        soften(rows, softer);
+        report.residual = balance(p);
+        if (Newton::iterate(p, alone, v, report, p.position)) {
+            solved_at = softer;
+            keep_beginning(p, v);
+        } else {
+            if (softer == kSoftest) break;
+            return_to_beginning(p, v);
+            soften(rows, solved_at);
+            report.residual = balance(p);
+            way = std::sqrt(way);
+            if (way > kShortest) break;
+        }
+        softer = std::max(1.0, solved_at * way);
+    }
+    soften(rows, 1);
+    return solved_at <= kSoftEnough;
 }
 
 /// Where nothing finds a balance (limbs jammed between motors without bounds): sweeps from rest. Momentum is

@@ -44,14 +44,12 @@ struct BoundedRowT {
     T target{};           // for the velocity
     T position_target{};  // for the displacement of this tick, which corrects violations without adding speed
     T compliance{1}, low{}, high{};
-    T position_compliance{};      // for the displacement, if it is larger
-    T stiffness{1};               // 1 / compliance, set by the solver
-    T u{}, du{};                  // velocity along it; per unit step of the line search
-    T impulse{};                  // solved; before that, of the normals of contacts: what they carried last
-    T d{};                        // minus the derivative of the impulse by the velocity
-    T d_held{};                   // of it, what the Hessian holds
-    T slack_low{}, slack_high{};  // multipliers of the bounds (interior point), and their steps
-    T slack_low_step{}, slack_high_step{};
+    T position_compliance{};  // for the displacement, if it is larger
+    T stiffness{1};           // 1 / compliance, set by the solver
+    T u{}, du{};              // velocity along it; per unit step of the line search
+    T impulse{};              // solved; before that, of the normals of contacts: what they carried last
+    T d{};                    // minus the derivative of the impulse by the velocity
+    T d_held{};               // of it, what the Hessian holds
 };
 using BoundedRow = BoundedRowT<double>;
 
@@ -82,7 +80,6 @@ struct FrictionDiscT {
     T d_11{}, d_12{}, d_22{};           // minus the derivative of the impulses by the velocity
     T d_1n{}, d_2n{};                   // by the normal velocity, where the bound moves with it
     T held_11{}, held_12{}, held_22{};  // what the Hessian holds
-    T slack{}, slack_step{};            // multiplier of the bound (interior point)
     T bound_error{}, relaxation{1};     // of the last update of the bound: what it lacked, the share given
 };
 using FrictionDisc = FrictionDiscT<double>;

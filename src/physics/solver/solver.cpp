@@ -4,53 +4,46 @@
 #include <algorithm>
 
 #include "physics/solver/fast_accuracy.h"
+#include "physics/solver/solve_plan.h"
 
 namespace roboss {
 namespace {
 
-constexpr std::size_t kPile = 4;        // robots
-constexpr std::size_t kDrivenPile = 9;  // robots with motors
-constexpr newton::Plan kPilePlan{
-    .far_max = 30, .coupled_steps = 12, .halvings = 3, .progress = 0.3, .checks = 10};
-
-/// Robots that lean on each other: coupled steps are shortened.
-constexpr newton::Plan kCrowdPlan{.halvings = 3, .progress = 0.3};
-
-/// Where Newton's method would turn one row after the other. Motors hold few robots apart from a pile: most
-/// of their wheels and feet do what they did in the last tick.
-bool is_pile(const IslandSolver::Problem& p) {
+PartFacts facts_of(const IslandSolver::Problem& p) {
     const auto is_motor = [](const JointRow& row) { return row.motor != nullptr; };
-    const bool is_driven = std::ranges::any_of(p.rows.joints, is_motor);
-    return p.robots.size() >= (is_driven ? kDrivenPile : kPile) && !p.rows.contacts.empty();
+    return {p.robots.size(),
+            !p.rows.contacts.empty(),
+            std::ranges::any_of(p.rows.joints, is_motor),
+            !p.rows.couplings.empty(),
+            p.position,
+            is_fast(p.accuracy)};
 }
 
 }  // namespace
 
-/// Newton's method, and where many contacts stand between sticking and sliding the interior point method:
-/// each Newton step would turn only one of them, for the potential of hard rows is all edges. The interior
-/// point method goes through the middle, in a number of steps that hardly depends on the problem: once with
-/// the bounds of the last tick, once with those that follow from it.
-void IslandSolver::solve_any(const Problem& p, std::vector<double>& v, Report& report) {
+/// The method that solved it; none: it did not.
+std::optional<SolveMethod> IslandSolver::attempt(Attempt attempt, const Problem& p, std::vector<double>& v,
+                                                 Report& report) {
     Lockstep<double> alone;
-    const bool piled = is_pile(p);
-    plan_ = piled ? kPilePlan : p.robots.size() > 1 ? kCrowdPlan : newton::Plan{};
-    start(p, v);
-    friction::keep_bounds(p.rows, start_bounds_);
-    if (piled && !p.position && p.rows.couplings.empty() && is_fast(p.accuracy))
-        return take_sweeps(p, v, report);
-    if (piled) {
-        if (p.position ? displace(p, v, report) : solve_by_sweeps(p, v, report)) return;
-        start_as_expected(p, alone, v, report);
-        if (Newton::iterate(p, alone, v, report, p.position)) return;
-    } else if (Newton::solve(p, alone, v, report)) {
-        return;
+    const auto where = [](bool solved, SolveMethod method) {
+        return solved ? std::optional(method) : std::nullopt;
+    };
+    switch (attempt) {
+        case Attempt::kNewton:
+            plan_ = newton_;
+            return where(Newton::solve(p, alone, v, report), SolveMethod::kNewton);
+        case Attempt::kSweeps:
+            plan_ = kPilePlan;
+            return solve_by_sweeps(p, v, report);
+        case Attempt::kHardened:
+            plan_ = newton_;
+            return where(harden(p, v, report), SolveMethod::kHardened);
+        case Attempt::kSweepsAlone:
+            return take_sweeps(p, v, report), SolveMethod::kSweeps;
+        case Attempt::kActiveSet:
+            return where(displace(p, v, report), SolveMethod::kActiveSet);
     }
-    friction::set_bounds(p.rows, start_bounds_);
-    interior_point(p, v, report);
-    if (p.position) return;
-    friction::fit_bounds(p.rows, [&](std::size_t c) { return p.rows.contacts[c].normal.impulse; });
-    if (Newton::solve(p, alone, v, report)) return;
-    interior_point(p, v, report);
+    return {};
 }
 
 bool IslandSolver::solve_plainly(const Problem& p, std::vector<double>& v, SolveReport& report) {
@@ -60,7 +53,7 @@ bool IslandSolver::solve_plainly(const Problem& p, std::vector<double>& v, Solve
     plan_ = {};
     start(p, v);
     const bool balances = Newton::solve(p, alone, v, solved);
-    report = {static_cast<int>(solved.iterations), solved.residual};
+    report = {static_cast<int>(solved.iterations), solved.residual, SolveMethod::kNewton};
     if (balances && newton::meets_tolerances(p, solved.residual)) return true;
     v = v_before_, p.rows.contacts = contacts_before_;
     report.residual = 0;
@@ -68,18 +61,24 @@ bool IslandSolver::solve_plainly(const Problem& p, std::vector<double>& v, Solve
 }
 
 SolveReport IslandSolver::solve(const Problem& p, std::vector<double>& v) {
-    constexpr double kUseless = 1e-2;       // of the residual
-    constexpr double kWrongFriction = 0.5;  // relative to the largest normal impulse
+    constexpr double kUseless = 1e-2;  // of the residual
+    const SolvePlan plan = plan_for(facts_of(p));
     Report report;
-    solve_any(p, v, report);
-    const bool is_wrong = !p.position && p.robots.size() > 1 && sweeps_know_friction(p.rows) &&
-                          friction::bound_error(p.rows).relative() > kWrongFriction;
-    if (is_wrong || !(report.residual <= kUseless)) {
+    newton_ = plan_ = plan.newton;
+    start(p, v);
+    keep_beginning(p, v);
+    std::optional<SolveMethod> method;
+    for (const Attempt next : plan.attempts) {
+        if (next != plan.attempts.front()) return_to_beginning(p, v);
+        if ((method = attempt(next, p, v, report))) break;
+    }
+    if (!method || !(report.residual <= kUseless)) {
+        method = SolveMethod::kSweptFromRest;
         settle_for_sweeps(p, v);
         set_gradient(p);
         report.residual = imbalance(p);
     }
-    return {static_cast<int>(report.iterations), report.residual};
+    return {static_cast<int>(report.iterations), report.residual, *method};
 }
 
 }  // namespace roboss

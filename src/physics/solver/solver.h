@@ -10,17 +10,21 @@
 // no pyramid and no lifting while sliding.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "physics/solver/hessian.h"
 #include "physics/solver/newton.h"
 #include "physics/solver/row_sweeps.h"
+#include "physics/solver/solve_method.h"
+#include "physics/solver/solve_plan.h"
 
 namespace roboss {
 
 struct SolveReport {
     int iterations = 0;
     double residual = 0;  // relative, of the momentum balance
+    SolveMethod method = SolveMethod::kNewton;
 };
 
 class IslandSolver : Newton<double, Hessian> {
@@ -39,29 +43,30 @@ class IslandSolver : Newton<double, Hessian> {
   private:
     using Report = SolveReportT<double>;
     enum class Pushing : char { kLow, kBetween, kHigh };  // where a row's impulse is in its bounds
-    void solve_any(const Problem& p, std::vector<double>& v, Report& report);
+    std::optional<SolveMethod> attempt(Attempt attempt, const Problem& p, std::vector<double>& v,
+                                       Report& report);
     // island_start.cpp
-    bool continue_at_rest(const Problem& p, std::vector<double>& v, Report& report);
+    void keep_beginning(const Problem& p, const std::vector<double>& v);
     void return_to_beginning(const Problem& p, std::vector<double>& v);
-    bool solve_by_sweeps(const Problem& p, std::vector<double>& v, Report& report);
+    bool continue_at_rest(const Problem& p, std::vector<double>& v, Report& report);
+    std::optional<SolveMethod> solve_by_sweeps(const Problem& p, std::vector<double>& v, Report& report);
     void step_as_swept(const Problem& p, std::vector<double>& v, Report& report);
     void expect_swept(const Problem& p);
     bool displace(const Problem& p, std::vector<double>& v, Report& report);
+    void soften(IslandRows& rows, double softer);
+    bool harden(const Problem& p, std::vector<double>& v, Report& report);
     void settle_for_sweeps(Problem p, std::vector<double>& v);
     void take_sweeps(const Problem& p, std::vector<double>& v, Report& report);
     void take_swept(const Problem& p, const std::vector<double>& v);
-    // interior_point.cpp
-    void interior_point(const Problem& p, std::vector<double>& v, Report& report);
-    double longest_step(const Problem& p, double mu);
-    double interior_step(const Problem& p, double mu, std::vector<double>& v);
 
+    newton::Plan newton_;  // of Attempt::kNewton
     RowSweeps sweeps_;
-    std::vector<double> start_bounds_;  // friction bounds of the last tick
-    std::vector<double> v_before_sweeps_, v_before_;
+    // Where the attempts begin: velocities, and of the last tick friction bounds and normal impulses
+    std::vector<double> v_beginning_, start_bounds_, carried_;
+    std::vector<double> compliances_;
+    std::vector<double> v_before_;
     std::vector<ContactRow> contacts_before_;
-    std::vector<double> carried_;   // normal impulses of the last tick
     std::vector<Pushing> pushing_;  // bounded rows, while the displacement is solved
-    std::vector<double> changes_;   // interior point: steps of the impulses
 };
 
 }  // namespace roboss
