@@ -172,6 +172,21 @@ TEST(BridgeFile, BombsAreRefusedAtOnce) {
     EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(20));
 }
 
+TEST(BridgeFile, LongTextsAreNotCopiedForEachAlias) {
+    const auto aliased = [](const std::string& entry) {
+        std::string text = "- &a " + entry + "\n";
+        for (int i = 0; i < 9'000; ++i) text += "- *a\n";
+        return text;
+    };
+    const std::string types = ", ros_type_name: std_msgs/msg/Bool, gz_type_name: gz.msgs.Boolean}";
+    const std::string longest(800'000, 'k');
+    const Bridge bridge = read(aliased("{" + longest + ": 1, topic_name: a" + types));
+    std::size_t bytes = 0;
+    for (const std::string& notice : bridge.notices) bytes += notice.size();
+    EXPECT_LT(bytes, 1'000'000u);
+    EXPECT_NE(refusal(aliased("{gz_topic_name: " + longest + ", ros_topic_name: a" + types)), "");
+}
+
 TEST(BridgeFile, FilesThatAreTooLargeOrAbsentAreRefused) {
     const test::Folder folder;
     const std::string good = entry_with("  topic_name: a\n");
