@@ -1,6 +1,8 @@
 // Visits the fields of a reading and takes each by its name.
 #include "device/sample_json.h"
 
+#include "client/held_samples.h"
+
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -63,6 +65,8 @@ Result<Sample> sample_of(const SensorSpec& spec, const nlohmann::json& values) {
         visit_fields(sample, reader);
         if (reader.read == 0 && wrong.empty())
             wrong = "no value that " + std::string(spec.kind().phrase) + " has";
+        if (wrong.empty() && !has_its_beams(spec, sample))
+            wrong = "\"ranges\" or \"intensities\", not one for each beam,";
     }
     if (wrong.empty()) return sample;
     return Error{"sensor \"" + spec.name + "\": " + wrong + " cannot be read",
