@@ -1,10 +1,10 @@
 // Visits the fields of a reading and takes each by its name.
 #include "device/sample_json.h"
 
-#include "client/held_samples.h"
-
 #include <cmath>
 #include <nlohmann/json.hpp>
+
+#include "client/held_samples.h"
 
 namespace roboss {
 namespace {
