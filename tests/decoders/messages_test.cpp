@@ -158,7 +158,7 @@ TEST(Decoders, TakeOrRefuseAnyTextOfFoxglove) {
                     {R"({"op":"subscribe","subscriptions":[{"id":1,"channelId":)" + id + "}]}",
                      R"({"op":"unsubscribe","subscriptionIds":[1,2]})", FoxgloveServer::advertise(),
                      R"({"op":"unadvertise","channelIds":[7,8]})", R"({"op":"subscribeConnectionGraph"})"},
-                    10'000,
+                    3'000,
                     {}};
     decoder.read = [&](const std::string& text, std::size_t) {
         server.hear(text, true);
