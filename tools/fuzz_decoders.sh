@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Feeds every decoder (messages, frames, Models, scenes, journals, bags, worlds, meshes, pictures) with changed bytes under
-# the address and undefined-behaviour sanitizers: `tools/fuzz_decoders.sh [ROUNDS]`, 100000 if not said. It builds only the
+# Feeds every decoder (messages, frames, Models, scenes, journals, bags, worlds, meshes, pictures, ROS 2, Foxglove) with changed bytes
+# under the address and undefined-behaviour sanitizers: `tools/fuzz_decoders.sh [ROUNDS]`, 100000 if not said. It builds only the
 # test programs that it needs (build/fuzz). An input that ends a process is kept in build/fuzz: docs/testing.md.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."

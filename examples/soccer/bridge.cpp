@@ -29,7 +29,9 @@ class Bridge final : public roboss::ControlProgram {
     }
 
     void control(roboss::Client& client) override {
-        while (const auto datagram = commands_->receive()) {
+        for (int n = 0; n < kDatagramsAtOnce; ++n) {
+            const auto datagram = commands_->receive();
+            if (!datagram) break;
             const auto packet = firasim::packet_of(*datagram);
             if (packet)
                 follow(client, *packet);

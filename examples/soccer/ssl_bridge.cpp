@@ -135,13 +135,17 @@ void SslBridge::control(roboss::Client& client) {
 }
 
 void SslBridge::receive(roboss::Client& client) {
-    while (const auto datagram = grsim_->receive()) {
+    for (int n = 0; n < kDatagramsAtOnce; ++n) {
+        const auto datagram = grsim_->receive();
+        if (!datagram) break;
         if (const auto packet = ssl::packet_of_grsim(*datagram))
             follow(client, *packet);
         else
             complain("grSim", "a datagram is no grSim_Packet");
     }
-    while (const auto datagram = simulator_->receive()) {
+    for (int n = 0; n < kDatagramsAtOnce; ++n) {
+        const auto datagram = simulator_->receive();
+        if (!datagram) break;
         const auto packet = ssl::packet_of_simulator(*datagram);
         if (packet) follow(client, *packet);
         simulator_->reply(ssl::response_to_simulator(
@@ -150,7 +154,9 @@ void SslBridge::receive(roboss::Client& client) {
     }
     for (const Team team : {Team::kBlue, Team::kYellow}) {
         const auto index = static_cast<std::size_t>(team);
-        while (const auto datagram = teams_[index]->receive()) {
+        for (int n = 0; n < kDatagramsAtOnce; ++n) {
+            const auto datagram = teams_[index]->receive();
+            if (!datagram) break;
             const auto packet = ssl::packet_of_robot_control(*datagram, team);
             if (packet) follow(client, *packet);
             std::vector<ssl::Problem> problems;

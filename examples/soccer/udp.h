@@ -6,6 +6,9 @@
 
 namespace soccer {
 
+/// Datagrams that a bridge takes between two ticks of its own, at most: a flood must not stop it.
+inline constexpr int kDatagramsAtOnce = 1'000;
+
 /// "127.0.0.1:20011".
 struct Address {
     std::string ip;

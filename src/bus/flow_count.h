@@ -12,9 +12,13 @@ namespace roboss {
 class FlowCount {
   public:
     void add(const Address& from, const Address& to, std::size_t bytes) {
-        Flow& flow = flows_[{from, to}];
-        ++flow.messages;
-        flow.bytes += bytes;
+        auto found = flows_.find({from, to});
+        if (found == flows_.end()) {
+            if (flows_.size() >= kMost) return;  // peers choose addresses as they like
+            found = flows_.try_emplace({from, to}).first;
+        }
+        ++found->second.messages;
+        found->second.bytes += bytes;
     }
     std::vector<Flow> all() const {
         std::vector<Flow> flows;
@@ -24,6 +28,8 @@ class FlowCount {
     }
 
   private:
+    static constexpr std::size_t kMost = 50'000;
+
     std::map<std::pair<Address, Address>, Flow> flows_;
 };
 

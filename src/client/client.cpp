@@ -313,6 +313,9 @@ Result<> Client::restore_samples(const std::string& bytes) {
                           number_of(held.sample))
             return Error{"a saved run holds a sample of a sensor that this world does not have",
                          "continue it with the world that it was saved with"};
+        if (!has_its_beams(model().type_of(RobotId(key.first)).sensors[key.second].spec, held.sample))
+            return Error{"a saved run holds a sample of a laser that has not one range for each beam",
+                         "save the run again"};
     }
     samples_ = std::move(samples);
     renew_samples();

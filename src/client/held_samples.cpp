@@ -86,6 +86,16 @@ bool sample_is_due(double rate_hz, double dt_s, Tick taken, Tick now) {
     return samples_begun(rate_hz, dt_s, now) != samples_begun(rate_hz, dt_s, taken);
 }
 
+bool has_its_beams(const SensorSpec& sensor, const Sample& sample) {
+    const auto* laser = sensor.as<LaserSpec>();
+    const auto* reading = std::get_if<LaserReading>(&sample);
+    if (laser == nullptr || reading == nullptr) return true;
+    const auto beams =
+        static_cast<std::size_t>(laser->samples) * static_cast<std::size_t>(laser->vertical_samples);
+    return reading->ranges.size() == beams &&
+           (reading->intensities.empty() || reading->intensities.size() == beams);
+}
+
 const Sample* HeldSamples::find(const Key& key) const {
     const auto found = held_.find(key);
     return found == held_.end() ? nullptr : &found->second.sample;

@@ -19,6 +19,10 @@ std::int64_t samples_begun(double rate_hz, double dt_s, Tick tick);
 /// Whether it has begun another by `now` than the one taken at `taken`.
 bool sample_is_due(double rate_hz, double dt_s, Tick taken, Tick now);
 
+/// False of a laser's sample that lacks ranges or has too many: programs take one for each beam for granted.
+/// For samples that come from files and devices.
+bool has_its_beams(const SensorSpec& sensor, const Sample& sample);
+
 class HeldSamples {
   public:
     using Key = std::pair<std::uint32_t, std::uint32_t>;  // RobotId, number of the sensor

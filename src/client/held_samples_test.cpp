@@ -42,6 +42,23 @@ LaserReading laser(Tick tick) {
     return {2, 1, {0.5, std::numeric_limits<double>::infinity()}, {0.5, 3}, tick};
 }
 
+TEST(HeldSamples, ALasersSampleHasARangeForEachBeam) {
+    LaserSpec spec;
+    spec.samples = 2;
+    SensorSpec sensor;
+    sensor.parameters = spec;
+    LaserReading reading = laser(10);
+    EXPECT_TRUE(has_its_beams(sensor, reading));
+    reading.intensities.clear();
+    EXPECT_TRUE(has_its_beams(sensor, reading));
+    reading.intensities = {1};
+    EXPECT_FALSE(has_its_beams(sensor, reading));
+    reading = laser(10);
+    reading.ranges.push_back(1);
+    EXPECT_FALSE(has_its_beams(sensor, reading));
+    EXPECT_TRUE(has_its_beams(sensor, GpsReading{}));
+}
+
 HeldSamples some() {
     HeldSamples held;
     held.put({3, 1}, laser(10));

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
+#include <utility>
 
 #include "device/sample_json.h"
 
@@ -19,6 +20,7 @@ constexpr double kBetween_s = 0.002;  // at least
 constexpr double kAnew_s = 1;         // of old numbers only
 constexpr double kFilter_s = 0.05;    // of velocities that are made from poses
 constexpr std::size_t kNotedMost = 20;
+constexpr std::size_t kBootsMost = 100;  // that are remembered
 
 const char* name_of(MotorMode mode) {
     switch (mode) {
@@ -209,9 +211,11 @@ bool JointsAdapter::is_new(const Packet& packet, double now_s) {
     if (!same && std::ranges::find(boots_, packet.boot) != boots_.end()) return false;  // of before a reboot
     if (!boots_.empty()) {
         ++count_.reboots;
-        notices_.push_back("the device started again");
+        if (now_s - std::exchange(rebooted_s_, now_s) > kAnew_s)
+            notices_.push_back("the device started again");
     }
     if (!same) boots_.push_back(packet.boot);
+    if (boots_.size() > kBootsMost) boots_.erase(boots_.begin());
     stamp_s_ = packet.stamp_s;
     acknowledged_ = 0;
     heard_ = packet.number;
@@ -232,6 +236,7 @@ void JointsAdapter::take(Packet packet, double now_s) {
             const Vec3 turned = logarithm(pose.X_WR.q * conjugate(old.X_WR.q));
             pose.linear = old.linear + share * ((pose.X_WR.p - old.X_WR.p) / elapsed_s - old.linear);
             pose.angular = old.angular + share * (turned / elapsed_s - old.angular);
+            if (!is_finite(pose.linear) || !is_finite(pose.angular)) pose.linear = pose.angular = {};
         }
         readings_.poses[robot] = pose;
     }

@@ -57,7 +57,7 @@ class JointsAdapter final : public DeviceAdapter {
     std::uint64_t sent_ = 0, acknowledged_ = 0;              // packets to the device
     std::uint64_t changed_ = 1;  // number of the packet that first said what is now
     bool is_changed_ = true;
-    double sent_s_ = kNever;
+    double sent_s_ = kNever, rebooted_s_ = kNever;
     std::vector<std::string> noted_;
 };
 

@@ -11,11 +11,12 @@
 namespace roboss {
 namespace {
 
-constexpr double kPatience_s = 0.2;   // for an answer; the longest takes 50 ms at 9600 baud
-constexpr double kRepeat_s = 0.3;     // a robot that rebooted unseen drives on after this long
-constexpr double kSlack = 2;          // wheels turn no faster than this many times the greatest speed
-constexpr int kAgreed = 3;            // counts in a row, to believe a jump
-constexpr std::size_t kLongest = 80;  // characters of a line
+constexpr double kPatience_s = 0.2;    // for an answer; the longest takes 50 ms at 9600 baud
+constexpr double kRepeat_s = 0.3;      // a robot that rebooted unseen drives on after this long
+constexpr double kSlack = 2;           // wheels turn no faster than this many times the greatest speed
+constexpr int kAgreed = 3;             // counts in a row, to believe a jump
+constexpr long kMostCount = 1L << 31;  // of a counter
+constexpr std::size_t kLongest = 80;   // characters of a line
 constexpr std::size_t kEyes = 8;
 constexpr double kAgain_s = 0.5;  // the banner has several lines
 
@@ -160,9 +161,7 @@ bool KheperaAdapter::take_numbers(char letter, const std::vector<long>& numbers,
         case 'h':
             return numbers.size() == 2 && take_counts({numbers[0], numbers[1]}, now_s);
         case 'e':
-            if (numbers.size() != 2) return false;
-            take_speeds(numbers);
-            return true;
+            return numbers.size() == 2 && take_speeds(numbers);
         default:
             return false;
     }
@@ -195,8 +194,8 @@ double KheperaAdapter::fastest_now() const {
 /// A count that jumps further than the wheels turned, by all that is known, may have been falsified on the
 /// line: it is believed if the next ones agree. If no wheel turns that fast, the robot started again unseen.
 bool KheperaAdapter::take_counts(const Counts& counts, double now_s) {
-    constexpr long kMost = 1L << 31;  // of a counter
-    if (std::abs(counts[0]) > kMost || std::abs(counts[1]) > kMost) return false;
+    for (const long count : counts)
+        if (count < -kMostCount || count > kMostCount) return false;
     const auto is_far = [&](const Counts& other, double other_s, double speed) {
         const double elapsed_s = std::min(now_s - other_s, 3600.0);
         const long most =
@@ -229,10 +228,15 @@ bool KheperaAdapter::take_counts(const Counts& counts, double now_s) {
     return true;
 }
 
-void KheperaAdapter::take_speeds(const std::vector<long>& speeds) {
+/// A speed that no wheel has was falsified on the line.
+bool KheperaAdapter::take_speeds(const std::vector<long>& speeds) {
+    constexpr long kMost = static_cast<long>(kSlack * KheperaUnits::kMostSpeed);
+    for (const long speed : speeds)
+        if (speed < -kMost || speed > kMost) return false;
     for (std::size_t i = 0; i < 2; ++i)
         readings_.joints[wheels_[i]].velocity = static_cast<double>(speeds[i]) * KheperaUnits::kSpeed;
     fastest_ = std::max(fastest_, fastest_now());
+    return true;
 }
 
 /// Odometry: an arc of a circle, by the mean heading.

@@ -45,7 +45,7 @@ class KheperaAdapter final : public DeviceAdapter {
     bool take_proximity(const std::vector<long>& values, double now_s);
     bool take_counts(const Counts& counts, double now_s);
     double fastest_now() const;
-    void take_speeds(const std::vector<long>& speeds);
+    bool take_speeds(const std::vector<long>& speeds);
     void count_on(long left, long right, double now_s);
     void note_reboot(const std::string& said, double now_s);
 

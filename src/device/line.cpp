@@ -14,7 +14,8 @@ namespace {
 namespace asio = boost::asio;
 using boost::system::error_code;
 
-constexpr std::size_t kMostWaiting = 64;  // writes: more, and nobody takes them
+constexpr std::size_t kMostWaiting = 64;    // writes: more, and nobody takes them
+constexpr std::size_t kMostAtOnce = 1'000;  // pieces that are read before they are taken
 
 Error broken(const std::string& address, const error_code& why) {
     return {"the line " + address + " is broken: " + why.message(), "check the cable and the device's power",
@@ -38,6 +39,7 @@ class AsioLine final : public DeviceLine {
                          Transport::kRemedy, "no-line"};
         }
         failed_ = {};
+        is_full_ = false;
         read();
         return Ok{};
     }
@@ -56,7 +58,9 @@ class AsioLine final : public DeviceLine {
     Result<std::vector<std::string>> receive() override {
         turn();
         if (inbox_.empty() && (!port_ || failed_)) return broken(address_, failed_);
-        return std::exchange(inbox_, {});
+        std::vector<std::string> pieces = std::exchange(inbox_, {});
+        if (std::exchange(is_full_, false)) read();
+        return pieces;
     }
 
     Result<> reopen() override { return open(); }
@@ -85,7 +89,8 @@ class AsioLine final : public DeviceLine {
                 return;
             }
             inbox_.emplace_back(buffer_.data(), size);
-            read();
+            is_full_ = inbox_.size() >= kMostAtOnce;  // else a flood would never let go of this thread
+            if (!is_full_) read();
         });
     }
     void write() {
@@ -107,6 +112,7 @@ class AsioLine final : public DeviceLine {
     std::array<char, 65536> buffer_{};
     std::deque<std::string> outbox_;  // the first is being written
     std::vector<std::string> inbox_;
+    bool is_full_ = false;  // nothing is read until it is emptied
     error_code failed_;
 };
 

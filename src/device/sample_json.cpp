@@ -4,6 +4,8 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "client/held_samples.h"
+
 namespace roboss {
 namespace {
 
@@ -63,6 +65,8 @@ Result<Sample> sample_of(const SensorSpec& spec, const nlohmann::json& values) {
         visit_fields(sample, reader);
         if (reader.read == 0 && wrong.empty())
             wrong = "no value that " + std::string(spec.kind().phrase) + " has";
+        if (wrong.empty() && !has_its_beams(spec, sample))
+            wrong = "\"ranges\" or \"intensities\", not one for each beam,";
     }
     if (wrong.empty()) return sample;
     return Error{"sensor \"" + spec.name + "\": " + wrong + " cannot be read",

@@ -185,13 +185,4 @@ std::string token_digest(std::string_view token) {
     return hexadecimal(std::span(digest).first(bytes));
 }
 
-bool RateLimit::take(std::int64_t now_ms) {
-    if (then_ms_ == 0) then_ms_ = now_ms;
-    left_ = std::min(per_second_, left_ + 1e-3 * static_cast<double>(now_ms - then_ms_) * per_second_);
-    then_ms_ = now_ms;
-    if (left_ < 1) return false;
-    left_ -= 1;
-    return true;
-}
-
 }  // namespace roboss

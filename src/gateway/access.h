@@ -1,5 +1,4 @@
-// Who may use the gateway: hosts, origins, tokens, and how often one may speak. Pure, so that it can be
-// tested without a network.
+// Who may use the gateway: hosts, origins, tokens. Pure, so that it can be tested without a network.
 #pragma once
 
 #include <cstdint>
@@ -64,17 +63,5 @@ class Access {
 std::string random_token();
 /// SHA-256 of a token, as hex. Tokens are random, so a slower function would add nothing.
 std::string token_digest(std::string_view token);
-
-/// At most so many in a second, counted in a bucket that fills steadily.
-class RateLimit {
-  public:
-    explicit RateLimit(double per_second) : per_second_(per_second), left_(per_second) {}
-    /// False: too many.
-    bool take(std::int64_t now_ms);
-
-  private:
-    double per_second_, left_;
-    std::int64_t then_ms_ = 0;
-};
 
 }  // namespace roboss

@@ -1,4 +1,4 @@
-// Addresses, hosts, origins, tokens and rates.
+// Addresses, hosts, origins and tokens.
 #include "gateway/access.h"
 
 #include <gtest/gtest.h>
@@ -182,14 +182,6 @@ TEST(Access, AFormerUserIsRefusedByName) {
 TEST(Access, TokensAreLongAndDiffer) {
     EXPECT_EQ(random_token().size(), 32u);
     EXPECT_NE(random_token(), random_token());
-}
-
-TEST(RateLimit, LetsTheRateThroughAndNoMore) {
-    RateLimit limit(200);
-    int taken = 0;
-    for (std::int64_t ms = 1000; ms < 11'000; ++ms)
-        for (int i = 0; i < 3; ++i) taken += limit.take(ms) ? 1 : 0;
-    EXPECT_NEAR(taken, 200 * 11, 10);
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 #include <memory>
 #include <string>
 
+#include "core/rate_limit.h"
 #include "gateway/access.h"
 #include "gateway/page_request.h"
 #include "gateway/page_stream_session.h"

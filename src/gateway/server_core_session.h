@@ -16,6 +16,7 @@
 #include <thread>
 #include <vector>
 
+#include "core/rate_limit.h"
 #include "gateway/access.h"
 #include "gateway/exchange.h"
 #include "gateway/gateway.h"

@@ -216,6 +216,22 @@ TEST(Strangers, APeersWordsMoveNoCursor) {
     EXPECT_NE(said.find("?[2J gone"), std::string::npos) << said;
 }
 
+TEST(Strangers, CallersWithoutEndDoNotFillTheLog) {
+    const NetOptions options = loopback("callers");
+    const auto controller = controller_of(options);
+    std::size_t lines = 0;
+    std::string said;
+    for (int i = 0; i < 3'000; ++i) {
+        Caller(controller->where()).send({'G', 'E', 'T', ' ', '/', '\n'});
+        for (const std::string& line : controller->take_notices()) ++lines, said = line;
+    }
+    EXPECT_TRUE(becomes([&] {
+        for (const std::string& line : controller->take_notices()) ++lines, said = line;
+        return said.find("[rate-limited]") != std::string::npos;
+    })) << said;
+    EXPECT_LT(lines, 1'000u);
+}
+
 TEST(Strangers, CallersWhoSayNothingDoNotFillTheController) {
     const NetOptions options = loopback("silent");
     const auto controller = controller_of(options);

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <boost/asio/post.hpp>
 
+#include "bus/bus.h"
 #include "net/connection.h"
 #include "net/key_folder.h"
 #include "net/mailboxes.h"
@@ -221,11 +222,16 @@ bool Switchboard::all_sent() const {
 
 void Switchboard::notice(std::string line) {
     const std::lock_guard lock(mutex_);
-    if (notices_.size() < kNoticesMost) notices_.push_back(std::move(line));
+    if (notices_.size() < kNoticesMost && notice_rate_.take(monotonic_ms()))
+        return notices_.push_back(std::move(line));
+    ++left_out_;
 }
 
 std::vector<std::string> Switchboard::take_notices() {
     const std::lock_guard lock(mutex_);
+    if (left_out_ > 0 && notice_rate_.take(monotonic_ms()))
+        notices_.push_back(std::to_string(std::exchange(left_out_, 0)) +
+                           " more such messages are left out [rate-limited]");
     return std::exchange(notices_, {});
 }
 

@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "core/rate_limit.h"
 #include "core/result.h"
 #include "net/beats.h"
 #include "net/frames.h"
@@ -98,6 +99,8 @@ class Switchboard {
     mutable std::mutex mutex_;  // of what follows
     std::set<Peer> peers_;
     std::vector<std::string> notices_;
+    RateLimit notice_rate_{5, 500};  // strangers who call again and again must not fill a log
+    std::size_t left_out_ = 0;       // notices
     std::optional<Error> refusal_;
     std::optional<RunOver> farewell_;
     std::string where_, trouble_;

@@ -1,5 +1,5 @@
 // See bridge_file.h. An entry is a map of plain values, so nothing here follows aliases further; the limits
-// below bound the rest.
+// below bound the rest, also what is copied from them.
 #include "ros2/bridge_file.h"
 
 #include <algorithm>
@@ -19,6 +19,9 @@ namespace roboss::ros2 {
 namespace {
 
 constexpr std::size_t kEntriesMost = 10'000, kKeysMost = 64;
+constexpr std::size_t kValueMost = 1'000;    // characters: an alias makes many of one
+constexpr std::size_t kQuoted = 60;          // characters of a key that is not known
+constexpr std::size_t kNoticesMost = 1'000;  // of a file
 constexpr const char* kBridgeNode = "ros_gz_bridge";  // "~/scan" is "/ros_gz_bridge/scan"
 
 constexpr std::array kBridgeKeys{"topic_name",
@@ -77,17 +80,22 @@ class BridgeReader {
         if (!entry.IsMap() || entry.size() > kKeysMost)
             return bad_bridge(where(entry), "an entry is no map of keys to values",
                               "write 'topic_name: ...', 'ros_type_name: ...' and 'gz_type_name: ...'");
+        static const std::string kNone;
         Values values;
         for (const auto& pair : entry) {
-            const std::string key = pair.first.IsScalar() ? pair.first.Scalar() : "";
+            const std::string& key = pair.first.IsScalar() ? pair.first.Scalar() : kNone;
             if (std::ranges::find(kBridgeKeys, std::string_view(key)) == kBridgeKeys.end()) {
-                bridge_.notices.push_back(where(pair.first) + "the key '" + key +
-                                          "' has no effect [bridge-key]");
+                if (bridge_.notices.size() < kNoticesMost)
+                    bridge_.notices.push_back(where(pair.first) + "the key '" + key.substr(0, kQuoted) +
+                                              "' has no effect [bridge-key]");
                 continue;
             }
             if (!pair.second.IsScalar())
                 return bad_bridge(where(pair.first), key + " has no value that is a plain text",
                                   "write one, or leave the key out");
+            if (pair.second.Scalar().size() > kValueMost)
+                return bad_bridge(where(pair.first), key + " has more than 1000 characters",
+                                  "give a shorter one");
             if (!values.emplace(key, pair.second.Scalar()).second)
                 return bad_bridge(where(pair.first), key + " is there twice", "remove one of them");
         }

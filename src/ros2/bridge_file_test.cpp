@@ -172,6 +172,21 @@ TEST(BridgeFile, BombsAreRefusedAtOnce) {
     EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(20));
 }
 
+TEST(BridgeFile, LongTextsAreNotCopiedForEachAlias) {
+    const auto aliased = [](const std::string& lines) {
+        std::string text =
+            "- &a\n  ros_type_name: std_msgs/msg/Bool\n  gz_type_name: gz.msgs.Boolean\n" + lines;
+        for (int i = 0; i < 9'000; ++i) text += "- *a\n";
+        return text;
+    };
+    const std::string longest(200'000, 'k');
+    const Bridge bridge = read(aliased("  topic_name: a\n  ? " + longest + "\n  : 1\n"));
+    std::size_t bytes = 0;
+    for (const std::string& notice : bridge.notices) bytes += notice.size();
+    EXPECT_LT(bytes, 1'000'000u);
+    EXPECT_NE(refusal(aliased("  ros_topic_name: a\n  gz_topic_name: " + longest + "\n")), "");
+}
+
 TEST(BridgeFile, FilesThatAreTooLargeOrAbsentAreRefused) {
     const test::Folder folder;
     const std::string good = entry_with("  topic_name: a\n");

@@ -14,7 +14,9 @@ namespace {
 
 using EntryKind = ControllerEntry::Kind;
 
-constexpr std::size_t kNodesMost = 100'000, kControllersMost = 1'000, kJointsMost = 1'000;
+constexpr std::size_t kNodesMost = 100'000, kControllersMost = 1'000;
+constexpr std::size_t kJointsMost = 10'000;  // of all controllers
+constexpr std::size_t kNameMost = 200;       // characters: an alias makes many of one
 constexpr int kDepthMost = 10;
 constexpr const char* kManager = "controller_manager";
 
@@ -123,6 +125,7 @@ class ControllersReader {
             entry.kind = known.kind;
             return set_parameters(type, known.mode, entry);
         }
+        if (controllers_.notices.size() == kControllersMost) return Ok{};
         controllers_.notices.push_back(where(type) + "the controller '" + entry.name + "' has no effect: a " +
                                        name.substr(0, 100) +
                                        " is not known here; plugins in the world file can drive wheels "
@@ -149,7 +152,7 @@ class ControllersReader {
         return Ok{};
     }
 
-    Result<> set_joints(const YAML::Node& values, ControllerEntry& entry) const {
+    Result<> set_joints(const YAML::Node& values, ControllerEntry& entry) {
         const bool is_gripper =
             entry.kind == EntryKind::kGripper || entry.kind == EntryKind::kParallelGripper;
         const char* key = is_gripper ? "joint" : "joints";
@@ -158,15 +161,18 @@ class ControllersReader {
             bad(where(values), "'" + entry.name + "' names no " + key,
                 "write '" + std::string(key) + ": " + (is_gripper ? "NAME'" : "[NAME, ...]'"));
         if (!joints) return missing;
-        if (is_gripper && joints.IsScalar()) {
-            entry.joints.push_back(joints.Scalar());
-        } else if (!is_gripper && joints.IsSequence() && joints.size() <= kJointsMost) {
-            for (const YAML::Node& joint : joints) {
-                if (!joint.IsScalar()) return missing;
-                entry.joints.push_back(joint.Scalar());
-            }
-        }
-        if (entry.joints.empty()) return missing;
+        const auto add_joint = [&](const YAML::Node& joint) {
+            const bool fits = joint.IsScalar() && joint.Scalar().size() <= kNameMost;
+            if (fits) entry.joints.push_back(joint.Scalar());
+            return fits;
+        };
+        if (is_gripper) return add_joint(joints) ? Result<>(Ok{}) : Result<>(missing);
+        if (!joints.IsSequence() || joints.size() == 0) return missing;
+        if (joint_count_ + joints.size() > kJointsMost)
+            return bad(where(joints), "the controllers have more than 10000 joints", "divide the file");
+        joint_count_ += joints.size();
+        for (const YAML::Node& joint : joints)
+            if (!add_joint(joint)) return missing;
         return Ok{};
     }
 
@@ -198,7 +204,7 @@ class ControllersReader {
 
     Controllers controllers_;
     std::vector<Parameters> nodes_;
-    std::size_t looked_at_ = 0;
+    std::size_t looked_at_ = 0, joint_count_ = 0;
 };
 
 }  // namespace

@@ -18,6 +18,7 @@ namespace {
 
 const LinkId kCanonical(std::size_t{0});  // link of a model
 constexpr double kUnitWithin = 1e-2;      // a quaternion that is less near to a unit one is an error
+constexpr std::size_t kFilterMost = 100;  // categories, or tags: each entity is compared with all
 
 /// Velocity of a point that is fixed to the frame whose velocity it is, `arm` from its origin.
 Twist moved(const Twist& twist, const Vec3& arm) {
@@ -90,6 +91,8 @@ std::optional<RobotId> Entities::find(const std::string& name) const {
 }
 
 si::Result Entities::matching(const si::EntityFilters& filters, std::vector<RobotId>& found) const {
+    if (filters.categories.size() > kFilterMost || is_too_long(filters.tags))
+        return result_of(si::Result::kOperationFailed, "a filter has at most 100 categories and 100 tags");
     const Result<NameFilter> names = NameFilter::of(filters.filter);
     if (!names) return result_of(si::Result::kOperationFailed, names.error().message);
     std::optional<Region> region;
@@ -205,6 +208,16 @@ Result<Pose> Entities::pose_in_world(const std::string& frame_name, const PoseMe
     if (std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}) > kOrderLimits.position)
         return Error{"the pose is too far away", "give a nearer one", "bad-pose"};
     return X_WF.value() * Pose{X.p, normalized(X.q)};
+}
+
+void Entities::set_info(RobotId robot, const si::EntityInfo& info) {
+    infos_[name(robot)] = info;
+    if (infos_.size() > run_.model().robots.size())
+        std::erase_if(infos_, [&](const auto& known) { return !run_.model().find_robot(known.first); });
+}
+
+bool is_too_long(const si::TagsFilter& filter) {
+    return filter.tags.size() > kFilterMost;
 }
 
 bool fits(const std::vector<std::string>& tags, const si::TagsFilter& filter) {

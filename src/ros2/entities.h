@@ -49,10 +49,8 @@ class Entities {
 
     /// The notes about it: those that were set, else its category as its parts suggest.
     simulation_interfaces::EntityInfo info(RobotId robot) const;
-    /// Replaces them.
-    void set_info(RobotId robot, const simulation_interfaces::EntityInfo& info) {
-        infos_[name(robot)] = info;
-    }
+    /// Replaces them. Notes about robots that are gone are forgotten.
+    void set_info(RobotId robot, const simulation_interfaces::EntityInfo& info);
 
     /// A pose in a frame of the world: "", "world", the name of an entity, "ENTITY/LINK"; in the world, m.
     /// An Error, "bad-pose", if there is no such frame or it is no pose.
@@ -65,6 +63,8 @@ class Entities {
     std::map<std::string, simulation_interfaces::EntityInfo> infos_;  // by name; of those that were set
 };
 
+/// True of a filter with more tags than are looked at.
+bool is_too_long(const simulation_interfaces::TagsFilter& filter);
 /// True if tags fit a filter.
 bool fits(const std::vector<std::string>& tags, const simulation_interfaces::TagsFilter& filter);
 

@@ -13,7 +13,7 @@ namespace v1 = simulation_interfaces_v1;
 
 namespace {
 
-constexpr std::size_t kLongestText = 10'000, kMostTags = 100;  // of the notes about an entity
+constexpr std::size_t kLongestText = 10'000, kLongestTag = 200, kMostTags = 100;  // of notes about an entity
 
 si::Result no_entity(const std::string& name) {
     return result_of(si::Result::kNotFound, "there is no entity '" + name.substr(0, 200) + "'");
@@ -80,10 +80,10 @@ void set_info(const SimulationContext& c, const si::EntityInfo& info, RobotId ro
     static constexpr std::array<std::uint8_t, 5> kCategories{
         si::EntityCategory::kObject, si::EntityCategory::kRobot, si::EntityCategory::kHuman,
         si::EntityCategory::kDynamicObject, si::EntityCategory::kStaticObject};
-    const auto is_long = [](const std::string& tag) { return tag.size() > kLongestText; };
+    const auto is_long = [](const std::string& tag) { return tag.size() > kLongestTag; };
     if (std::ranges::find(kCategories, info.category.category) == kCategories.end())
         result = result_of(si::Result::kOperationFailed, "there is no such category");
-    else if (is_long(info.description) || info.tags.size() > kMostTags ||
+    else if (info.description.size() > kLongestText || info.tags.size() > kMostTags ||
              std::ranges::any_of(info.tags, is_long))
         result = result_of(si::Result::kOperationFailed, "the description or the tags are too long");
     else

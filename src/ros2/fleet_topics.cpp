@@ -134,7 +134,8 @@ Result<std::string> FleetTopics::scans_message(Tick tick, Tick last,
         if (!sample) return sample.error();
         if (!sample.value()) continue;
         const auto& ranges = std::get<LaserReading>(*sample.value()).ranges;
-        std::transform(ranges.begin(), ranges.end(),
+        std::transform(ranges.begin(),
+                       ranges.begin() + static_cast<std::ptrdiff_t>(std::min(ranges.size(), beams_)),
                        message.data.begin() + static_cast<std::ptrdiff_t>(r * beams_),
                        [](double range) { return static_cast<float>(range); });
         is_new = true;

@@ -9,7 +9,8 @@ namespace roboss::ros2 {
 
 namespace {
 
-constexpr std::size_t kWaitingMost = 100;  // messages of a topic for later periods
+constexpr std::size_t kWaitingMost = 100;                          // messages of a topic for later periods
+constexpr std::size_t kWaitingBytesMost = std::size_t{256} << 20;  // of all topics
 
 }  // namespace
 
@@ -47,6 +48,7 @@ void Lockstep::begin(std::int64_t stamp_ns) {
 void Lockstep::forget() {
     is_collecting_ = false;
     for (Gate& gate : gates_) gate.message.reset(), gate.next.clear();
+    waiting_bytes_ = 0;
 }
 
 /// Gives a gate that is open the first message that waits for this period.
@@ -54,6 +56,7 @@ void Lockstep::fill(Gate& gate) {
     while (is_collecting_ && !gate.message && !gate.next.empty()) {
         Waiting& first = gate.next.front();
         if (first.stamp_ns && *first.stamp_ns > stamp_ns_) return;
+        waiting_bytes_ -= first.bytes.size();
         if (first.stamp_ns && *first.stamp_ns < stamp_ns_)
             ++dropped_;
         else
@@ -65,9 +68,11 @@ void Lockstep::fill(Gate& gate) {
 bool Lockstep::take(std::size_t topic, std::string bytes, std::optional<std::int64_t> stamp_ns) {
     if (places_[topic] == kNowhere) return false;
     Gate& gate = gates_[places_[topic]];
-    if (gate.next.size() >= kWaitingMost) return ++dropped_, true;
+    const bool is_crowded = waiting_bytes_ + bytes.size() > kWaitingBytesMost;  // each topic has room for one
+    if (gate.next.size() >= kWaitingMost || (is_crowded && !gate.next.empty())) return ++dropped_, true;
     if (gate.message && stamp_ns == stamp_ns_) return ++dropped_, true;  // the same answer once more
     if (gate.message || !is_collecting_) ++early_;
+    waiting_bytes_ += bytes.size();
     gate.next.push_back({std::move(bytes), stamp_ns});
     fill(gate);
     return true;

@@ -65,7 +65,7 @@ class Lockstep {
     static constexpr std::size_t kNowhere = static_cast<std::size_t>(-1);
     std::int64_t stamp_ns_ = 0;
     bool is_collecting_ = false;  // from begin() to accepted(); else messages wait for the next period
-    std::size_t open_ = 0;
+    std::size_t open_ = 0, waiting_bytes_ = 0;
     std::uint64_t early_ = 0, dropped_ = 0;
 };
 

@@ -94,6 +94,19 @@ TEST_F(LockstepTest, OthersHaveNoEffectAndAFloodIsBounded) {
     EXPECT_GE(lockstep.dropped(), 800u);
 }
 
+TEST_F(LockstepTest, AFloodOfLargeMessagesLeavesRoomForOthers) {
+    lockstep.begin(0);
+    const std::string large(std::size_t{16} << 20, 'x');
+    for (int i = 0; i < 40; ++i) lockstep.take(first, large, {});
+    EXPECT_GE(lockstep.dropped(), 20u);
+    lockstep.take(second, large, {});
+    EXPECT_TRUE(lockstep.is_complete());
+    lockstep.forget();
+    lockstep.begin(0);
+    for (int i = 0; i < 10; ++i) lockstep.take(first, large, {});
+    EXPECT_LT(lockstep.dropped(), 40u) << "what was forgotten takes no room";
+}
+
 TEST_F(LockstepTest, APatternThatMatchesNothingIsRefused) {
     const Result<Lockstep> made = Lockstep::of({"/robot/cmd_vel", "/robot/cmd_wel"}, commands);
     ASSERT_FALSE(made);

@@ -28,16 +28,18 @@ void spawn_all(Spawner& spawner, const std::vector<si::SpawnRequest>& requests,
                const Reply<si::SpawnEntities>& reply) {
     const auto results = std::make_shared<si::SpawnEntities::Response>();
     results->result = fine();
+    results->results.resize(requests.size());
     if (requests.empty()) return reply(*results);
-    for (const si::SpawnRequest& request : requests)  // they are served in this order
-        spawner.spawn(spawn_of(request), [results, reply, count = requests.size()](const si::Result& result,
-                                                                                   const std::string& name) {
-            results->results.push_back({result, name});
-            if (result.result != si::Result::kOk)
-                results->result = result_of(si::SpawnEntities::Response::kEntitiesSpawnFailed,
-                                            "at least one was not spawned: see its result");
-            if (results->results.size() == count) reply(*results);
-        });
+    const auto left = std::make_shared<std::size_t>(requests.size());
+    for (std::size_t i = 0; i < requests.size(); ++i)  // they are served in this order
+        spawner.spawn(spawn_of(requests[i]),
+                      [results, reply, left, i](const si::Result& result, const std::string& name) {
+                          results->results[i] = {result, name};
+                          if (result.result != si::Result::kOk)
+                              results->result = result_of(si::SpawnEntities::Response::kEntitiesSpawnFailed,
+                                                          "at least one was not spawned: see its result");
+                          if (--*left == 0) reply(*results);
+                      });
 }
 
 std::string list_of_unknown(const std::vector<std::string>& sources) {

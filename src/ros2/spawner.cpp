@@ -16,6 +16,12 @@ namespace {
 using Codes = si::SpawnEntity::Response;
 
 constexpr std::size_t kLongestName = 200;
+constexpr std::size_t kWaitingBytesMost = std::size_t{64} << 20;  // of descriptions whose turn has not come
+
+std::size_t size_of(const Spawn& wanted) {
+    return sizeof(Spawn) + wanted.name.size() + wanted.space.size() + wanted.uri.size() + wanted.text.size() +
+           wanted.frame.size();
+}
 
 bool is_name(const std::string& name) {
     return name.size() <= kLongestName && std::ranges::all_of(name, [](char c) {
@@ -63,7 +69,12 @@ struct Spawner::Addition {
 };
 
 void Spawner::spawn(const Spawn& wanted, const Spawned& then) {
-    waits_.in_turn([this, wanted, then](std::function<void()> over) {
+    const std::size_t bytes = size_of(wanted);
+    if (waiting_bytes_ + bytes > kWaitingBytesMost)
+        return then(result_of(si::Result::kOperationFailed, "too many others wait: spawn it later"), "");
+    waiting_bytes_ += bytes;
+    waits_.in_turn([this, wanted, then, bytes](std::function<void()> over) {
+        waiting_bytes_ -= bytes;
         const auto addition = std::make_shared<Addition>();
         addition->then = then, addition->over = std::move(over);
         const si::Result ready = prepare(wanted, *addition);

@@ -35,7 +35,7 @@ class Spawner {
     Spawner(RunControl& run, RunWaits& waits, Entities& entities, const ModelFolders& folders)
         : run_(run), waits_(waits), entities_(entities), folders_(folders) {}
 
-    /// Adds a robot.
+    /// Adds a robot. Refused at once if too much waits already.
     void spawn(const Spawn& wanted, const Spawned& then);
     /// Removes robots by name; those that are gone already do not matter.
     void remove(std::vector<std::string> names, const Removed& then);
@@ -56,6 +56,7 @@ class Spawner {
     Entities& entities_;
     const ModelFolders& folders_;
     std::set<std::string> spawned_;
+    std::size_t waiting_bytes_ = 0;
 };
 
 }  // namespace roboss::ros2

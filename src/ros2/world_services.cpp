@@ -26,6 +26,8 @@ void add_places(const SimulationContext& c) {
                                                                   const Reply<si::GetNamedPoses>& reply) {
         si::GetNamedPoses::Response response;
         response.result = c.options.places.empty() ? unsupported(kNone) : fine();
+        if (is_too_long(request.tags))
+            return reply({result_of(si::Result::kOperationFailed, "the filter has too many tags"), {}});
         for (const NamedPlace& place : c.options.places)
             if (fits(place.pose.tags, request.tags)) response.poses.push_back(place.pose);
         reply(response);

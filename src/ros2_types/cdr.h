@@ -85,6 +85,11 @@ class CdrReader {
 
   private:
     template <class T>
+    static constexpr std::size_t least_bytes() {
+        return Primitive<T> ? sizeof(T) : 1;
+    }
+
+    template <class T>
     void read(const char* name, T& value) {
         if constexpr (Message<T>)
             T::fields(*this, value);
@@ -95,12 +100,18 @@ class CdrReader {
         else if constexpr (kIsSequence<T>) {
             std::uint32_t count = 0;
             numbers(name, &count, 1);
-            // Every element takes a byte at least: no count can ask for more memory than there are bytes.
-            if (count > rest_.size() - at_) return fail(name, "its length");
+            // No count can ask for more memory than there are bytes.
+            if (count > (rest_.size() - at_) / least_bytes<typename T::value_type>())
+                return fail(name, "its length");
             if (kBound < T >> 0 && count > kBound<T>) return fail("'" + std::string(name) + "' is too long");
             if (!problem_.empty()) return;
-            value.resize(count);
-            elements(name, value);
+            if constexpr (Primitive<typename T::value_type>) {
+                value.resize(count);
+                elements(name, value);
+            } else {
+                value.clear();  // it grows as elements are read: each is larger here than its bytes
+                while (value.size() < count && problem_.empty()) read(name, value.emplace_back());
+            }
         } else
             elements(name, value);
     }

@@ -74,6 +74,39 @@ TEST(Cdr, LengthsBeyondTheEndAreRefusedBeforeMemoryIsTaken) {
     EXPECT_NE(read.error().text().find("'data'"), std::string::npos) << read.error().text();
 }
 
+/// Counts how many of it were made.
+struct Counted {
+    static constexpr const char* kName = "test_msgs/msg/Counted";
+    static inline std::size_t made = 0;
+    Counted() { ++made; }
+    std::string text;
+
+    template <class Visitor, class Self>
+    static void fields(Visitor&& visit, Self& m) {
+        visit("text", m.text);
+    }
+};
+struct ManyCounted {
+    static constexpr const char* kName = "test_msgs/msg/ManyCounted";
+    std::vector<Counted> all;
+
+    template <class Visitor, class Self>
+    static void fields(Visitor&& visit, Self& m) {
+        visit("all", m.all);
+    }
+};
+
+TEST(Cdr, ElementsAreMadeAsTheyAreRead) {
+    std::string bytes("\0\1\0\0\0\0\x10\0\xff\xff\xff\xff", 12);  // 2^20 of them, the first is damaged
+    bytes.resize(8 + (std::size_t{1} << 20));
+    Counted::made = 0;
+    EXPECT_FALSE(from_cdr<ManyCounted>(bytes));
+    EXPECT_EQ(Counted::made, 1u);
+    const std::string good = to_cdr(ManyCounted{{{}, {}, {}}});
+    ASSERT_TRUE(from_cdr<ManyCounted>(good));
+    EXPECT_EQ(from_cdr<ManyCounted>(good).value().all.size(), 3u);
+}
+
 TEST(Cdr, MessagesWithoutFieldsHaveAByte) {
     EXPECT_EQ(hex(to_cdr(Empty{})), "0001000000");
     EXPECT_TRUE(from_cdr<Empty>(to_cdr(Empty{})));

@@ -1,7 +1,10 @@
 // <include>: where files are looked for, what the include overrides, and nested and merged ones.
 #include <gtest/gtest.h>
 
+#include <sys/stat.h>
+
 #include <cstdlib>
+#include <filesystem>
 
 #include "sdf/test_files.h"
 
@@ -53,6 +56,23 @@ TEST(Include, LooksWhereTheEnvironmentSays) {
         ASSERT_TRUE(loaded.world);
         EXPECT_EQ(loaded.world->instances.size(), 1u) << variable << "\n" << loaded.text();
     }
+}
+
+TEST(Include, DevicesPipesAndFilesWithoutEndAreNotRead) {
+    const TestFolder folder;
+    ASSERT_EQ(::mkfifo(folder.path("pipe.sdf").c_str(), 0600), 0);
+    folder.write("endless.sdf", "<sdf");
+    std::filesystem::resize_file(folder.path("endless.sdf"), std::uintmax_t{1} << 40);  // takes no room
+    const auto code = [&](const std::string& uri) {
+        folder.write("world.sdf", world_file("<include><uri>" + uri + "</uri></include>"));
+        const Loaded loaded = folder.load("world.sdf");
+        return loaded.find("too-large") != nullptr           ? "too-large"
+               : loaded.find("include-not-found") != nullptr ? "include-not-found"
+                                                             : "none";
+    };
+    EXPECT_STREQ(code("/dev/zero"), "include-not-found");
+    EXPECT_STREQ(code("pipe.sdf"), "include-not-found");
+    EXPECT_STREQ(code("endless.sdf"), "too-large");
 }
 
 TEST(Include, LooksInTheFolderModelsBesideTheWorld) {

@@ -37,9 +37,11 @@ bool starts_with(const std::string& text, const std::string& prefix) {
     return text.compare(0, prefix.size(), prefix) == 0;
 }
 
+/// Only files and folders: a device such as /dev/zero has no end, and a pipe may never have a beginning.
 bool is_there(const fs::path& path) {
     std::error_code ignored;
-    return fs::exists(path, ignored);
+    const fs::file_status status = fs::status(path, ignored);
+    return fs::is_regular_file(status) || fs::is_directory(status);
 }
 
 void append_variable(const Variable& variable, std::vector<std::string>& folders) {

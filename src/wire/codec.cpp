@@ -41,6 +41,15 @@ constexpr std::size_t kLeastBytes<EarlierBox> = 25;
 template <>
 constexpr std::size_t kLeastBytes<IslandResult> = 2;
 
+/// Items of a list, at most: each may be many times as large here as its bytes.
+constexpr std::size_t kItemsMost = std::size_t{1} << 22;
+
+/// The same count, or 0 if it is too large.
+inline std::size_t of_a_list(Reader& a, std::size_t n) {
+    if (n > kItemsMost) a.fail("a list has too many items");
+    return a.failed() ? 0 : n;
+}
+
 template <class A, class... Fields>
 void fields(A& a, Fields&... values);
 
@@ -72,7 +81,7 @@ void short_list(Reader& a, std::vector<T>& values, const Each& each) {
     std::uint64_t n = 0;
     compact(a, n);
     values.clear();
-    values.resize(a.plausible(n, kLeastBytes<T>));
+    values.resize(of_a_list(a, a.plausible(n, kLeastBytes<T>)));
     for (std::size_t i = 0; i < values.size() && !a.failed(); ++i) each(values[i]);
 }
 
@@ -317,7 +326,7 @@ void field(Reader& a, std::vector<T>& values) {
         a.raw(values.data(), values.size() * sizeof(T));
     } else {
         constexpr std::size_t least = kLeastBytes<T>;
-        const std::size_t n = a.count(least);
+        const std::size_t n = of_a_list(a, a.count(least));
         if (least > 1) values.reserve(n);
         for (std::size_t i = 0; i < n && !a.failed(); ++i) field(a, values.emplace_back());
     }

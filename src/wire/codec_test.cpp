@@ -222,6 +222,19 @@ TEST(Codec, RefusesNoiseAndHugeCounts) {
     EXPECT_NE(back.error().message.find("count"), std::string::npos) << back.error().message;
 }
 
+/// Items may be twenty times as large in memory as their bytes.
+TEST(Codec, RefusesListsThatWouldFillTheMemory) {
+    constexpr std::size_t kMany = (std::size_t{1} << 22) + 1;
+    WindowResult result;
+    result.islands.resize(kMany);
+    const Result<Envelope> back = decode_envelope(encode(envelope_of(result)));
+    ASSERT_FALSE(back.ok());
+    EXPECT_NE(back.error().message.find("too many items"), std::string::npos) << back.error().message;
+    RemoveRobots remove;
+    remove.names.resize(kMany);
+    EXPECT_FALSE(decode_envelope(encode(envelope_of(ControlRequest{1, remove}))).ok());
+}
+
 TEST(Codec, RefusesAnotherVersionByName) {
     std::vector<std::uint8_t> bytes = encode(envelope_of(Heartbeat{SimulatorId(1u)}));
     bytes[0] = 200;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cstdint>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
@@ -15,6 +16,8 @@
 namespace roboss::xml {
 
 namespace {
+
+constexpr std::uintmax_t kBytesMost = std::uintmax_t{256} << 20;  // of a file
 
 bool is_space(char c) {
     return c == ' ' || c == '\t' || c == '\n' || c == '\r';
@@ -145,6 +148,12 @@ std::unique_ptr<SourceFile> SourceFile::read(const std::string& path, Diagnostic
                           : exists  ? "the file '" + path + "' cannot be read"
                                     : "there is no file '" + path + "'",
                           remedy_for(path));
+        return nullptr;
+    }
+    if (std::filesystem::is_regular_file(path, ignored) &&  // else a pipe of the user's
+        std::filesystem::file_size(path, ignored) > kBytesMost) {
+        diagnostics.error({path, 0}, "too-large", "'" + path + "' is larger than 256 MiB",
+                          "Divide it, or name the right file.");
         return nullptr;
     }
     std::ostringstream text;

@@ -1,11 +1,15 @@
 // Changes of good bytes, by seed, and what is done with them: a decoder must take them or refuse them.
 #pragma once
 
+#include <gtest/gtest.h>
+
 #include <cstddef>
 #include <filesystem>
 #include <functional>
 #include <string>
 #include <vector>
+
+#include "core/result.h"
 
 namespace roboss::test {
 
@@ -18,6 +22,14 @@ struct Decoder {
     std::function<bool(const std::string& bytes, std::size_t which)>
         read;  // `which`: of the good ones it comes from
 };
+
+/// True if it was read; fails the test if a refusal gives no reason.
+template <class T>
+bool taken(const Result<T>& read) {
+    if (read.ok()) return true;
+    EXPECT_FALSE(read.error().message.empty());
+    return false;
+}
 
 /// The bytes of a file.
 std::string contents(const std::filesystem::path& file);

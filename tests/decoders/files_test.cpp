@@ -1,6 +1,6 @@
 // Files of others, changed at random: worlds (SDFormat, URDF, MJCF), meshes and pictures are read, or refused
-// with a reason. The decoders of messages, Models, scenes and journals are tested the same way in their
-// layers.
+// with a reason. Messages of ROS 2 and Foxglove: messages_test.cpp, orders_test.cpp. The decoders of messages
+// of the cluster, Models, scenes and journals are tested the same way in their layers.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -93,13 +93,6 @@ TEST(Decoders, KeepTheInputThatEndsTheProcess) {
     ASSERT_EQ(kept.size(), 1u);
     EXPECT_NE(contents(kept[0]).find('\xFF'), std::string::npos);
     fs::remove(kept[0]);
-}
-
-template <class T>
-bool taken(const Result<T>& read) {
-    if (read.ok()) return true;
-    EXPECT_FALSE(read.error().message.empty());
-    return false;
 }
 
 /// Reads it from a file of this ending.

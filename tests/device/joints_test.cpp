@@ -61,6 +61,14 @@ TEST_F(JointsProtocol, ARebootStartsNumbersAnewAndPacketsOfBeforeItAreLate) {
     EXPECT_EQ(adapter->count().stale, 1u);
 }
 
+TEST_F(JointsProtocol, AStormOfRebootsIsReportedOnceASecond) {
+    for (std::uint64_t boot = 1; boot <= 1000; ++boot) hear(readings(1, 1, boot));
+    EXPECT_EQ(adapter->count().reboots, 999u);
+    EXPECT_LT(adapter->take_notices().size(), 20u);
+    hear(readings(2, 2, 950));
+    EXPECT_EQ(position(), 1) << "it is of before a reboot";
+}
+
 TEST_F(JointsProtocol, ARebootWithTheSameBootNumberIsSeenAfterASecond) {
     hear(readings(1000, 1));
     for (std::uint64_t i = 1; i <= 90; ++i) hear(readings(i, 2));
@@ -154,6 +162,17 @@ TEST_F(JointsProtocol, VelocitiesAreMadeOfPosesThatHaveNone) {
     EXPECT_NEAR(pose.linear.x, 0.5, 1e-3);
     EXPECT_NEAR(pose.angular.z, 1.0, 1e-3);
     EXPECT_FALSE(pose.estimated);
+}
+
+TEST_F(JointsProtocol, StampsThatHardlyDifferGiveNoEndlessVelocity) {
+    for (std::uint64_t i = 1; i <= 3; ++i) {
+        json packet = readings(i, 0);
+        packet["stamp_s"] = 5e-324 * static_cast<double>(i);
+        packet["poses"]["ball"] = {{"position", {1e9 * static_cast<double>(i), 0, 0}},
+                                   {"quat_xyzw", {0, 0, 0, 1}}};
+        hear(packet);
+    }
+    EXPECT_TRUE(std::isfinite(norm(adapter->readings().poses.at(ball).linear)));
 }
 
 TEST_F(JointsProtocol, OrdersForWhatTheDeviceLacksAreRefused) {

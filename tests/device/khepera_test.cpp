@@ -100,6 +100,8 @@ TEST_F(KheperaProtocol, DamagedAnswersAreDroppedAndTheNextOneIsAskedFor) {
     EXPECT_EQ(adapter->count().damaged, 7u);
     adapter->receive("h,-9223372036854775807,9223372036854775807\r\n", now);
     EXPECT_EQ(adapter->count().damaged, 8u);
+    adapter->receive("h,-9223372036854775808,0\r\ne,9223372036854775807,0\r\ne,0,-255\r\n", now);
+    EXPECT_EQ(adapter->count().damaged, 11u);
     const double was = position(left);
     talk(0.2);
     EXPECT_EQ(position(left), was);

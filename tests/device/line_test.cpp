@@ -3,9 +3,12 @@
 
 #include <fcntl.h>
 #include <gtest/gtest.h>
+#include <netinet/in.h>
 #include <stdlib.h>
+#include <sys/socket.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <chrono>
 #include <thread>
 
@@ -48,6 +51,37 @@ TEST(DeviceLine, ASerialLineCarriesBytesBothWaysAndBreaksWithItsOtherEnd) {
     EXPECT_EQ(heard(*line.value(), 1), "<no-line>");
     EXPECT_FALSE(line.value()->send("D,0,0\n").ok());
     EXPECT_FALSE(line.value()->reopen().ok());
+}
+
+TEST(DeviceLine, AFloodIsReadInParts) {
+    const int device = ::socket(AF_INET, SOCK_DGRAM, 0);
+    sockaddr_in here{};
+    here.sin_family = AF_INET, here.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    socklen_t size = sizeof here;
+    ASSERT_EQ(::bind(device, reinterpret_cast<sockaddr*>(&here), size), 0);
+    ASSERT_EQ(::getsockname(device, reinterpret_cast<sockaddr*>(&here), &size), 0);
+    auto line = open_line("udp:127.0.0.1:" + std::to_string(ntohs(here.sin_port)));
+    ASSERT_TRUE(line.ok()) << line.error().text();
+    ASSERT_TRUE(line.value()->send("here").ok());
+    char text[8];
+    sockaddr_in there{};
+    ASSERT_EQ(::recvfrom(device, text, sizeof text, 0, reinterpret_cast<sockaddr*>(&there), &size), 4);
+    std::atomic<bool> ends = false;
+    std::thread flood([&] {
+        while (!ends)
+            (void)::sendto(device, "flood", 5, 0, reinterpret_cast<const sockaddr*>(&there), sizeof there);
+    });
+    std::size_t pieces = 0;
+    for (int i = 0; i < 1000 && pieces < 3000; ++i) {
+        const auto got = line.value()->receive();
+        ASSERT_TRUE(got.ok());
+        EXPECT_LE(got.value().size(), 1000u);
+        pieces += got.value().size();
+    }
+    ends = true;
+    flood.join();
+    ::close(device);
+    EXPECT_GT(pieces, 0u);
 }
 
 TEST(DeviceLine, AUdpLineWaitsForADeviceThatIsNotThereYet) {

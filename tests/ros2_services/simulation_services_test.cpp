@@ -203,6 +203,25 @@ TEST(SimulationServices, SeveralAreSpawnedByOneCall) {
     EXPECT_EQ(response.results[2].entity_name, "c");
 }
 
+TEST(SimulationServices, AFloodOfDescriptionsIsRefused) {
+    TestRun run(ball_and_arm());
+    std::vector<std::int64_t> calls;
+    const auto ask = [&](const si::SpawnEntity::Request& request) {
+        calls.push_back(run.transport.call("/spawn_entity", ros2::to_cdr(request), ""));
+    };
+    ask(box("first"));
+    si::SpawnEntity::Request large = box("large");
+    large.entity_resource.resource_string.assign(std::size_t{8} << 20, 'x');
+    for (int i = 0; i < 20; ++i) ask(large);
+    std::map<std::uint8_t, int> codes;
+    for (const std::int64_t call : calls)
+        ++codes[ros2::from_cdr<si::SpawnEntity::Response>(run.wait_for(call)).value().result.result];
+    EXPECT_EQ(codes[Code::kOk], 1);
+    EXPECT_EQ(codes[si::SpawnEntity::Response::kResourceParseError], 7) << "those that had room to wait";
+    EXPECT_EQ(codes[Code::kOperationFailed], 13);
+    EXPECT_EQ(spawn(run, box("later")).entity_name, "later");
+}
+
 TEST(SimulationServices, StatesAreSetAsFarAsTheRequestSays) {
     TestRun run(ball_and_arm());
     si::SetEntityState::Request request;
@@ -277,6 +296,12 @@ TEST(SimulationServices, FiltersSelect) {
     const auto bounds = run.call<si::GetEntityBounds>("/get_entity_bounds", {"ball"}).bounds;
     ASSERT_EQ(bounds.type, si::Bounds::kBox);
     EXPECT_NEAR(bounds.points[0].z, 0.5, 1e-9) << "along its canonical link";
+    filters = {};
+    filters.tags.tags.resize(1'000);
+    EXPECT_EQ(run.call<si::GetEntities>("/get_entities", {filters}).result.result, Code::kOperationFailed);
+    filters = {};
+    filters.categories.resize(1'000);
+    EXPECT_EQ(run.call<si::GetEntities>("/get_entities", {filters}).result.result, Code::kOperationFailed);
     EXPECT_NEAR(bounds.points[1].z, -0.5, 1e-9);
 }
 
