@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # Runs a command on a copy of this repository in a bare Debian: nothing that this machine has installed counts there.
-#   tools/bare_root.sh bookworm|trixie DIR [COMMAND...]      e.g. tools/bare_root.sh bookworm /var/tmp/bare ./run.sh
+#   tools/bare_root.sh bookworm|trixie[-arm64] DIR [COMMAND...]   e.g. tools/bare_root.sh bookworm /var/tmp/bare ./run.sh
+# -arm64: of another processor, whose programs the kernel starts by qemu (tools/try_release.sh).
 # DIR is new or empty, and becomes a root of debootstrap's smallest kind; or one that this tool made before: what was
 # installed and built there stays. The copy, /root/roboss in DIR, has all files that git lists or does not ignore, as
 # they are on disk now, with uncommitted changes and without .git. Without COMMAND, only the root and the copy are made.
@@ -22,9 +23,9 @@ fail() {
 }
 
 check_arguments() {
-    [[ $release == bookworm || $release == trixie ]] || fail 2 "no release '$release'" \
-        "usage: tools/bare_root.sh bookworm|trixie DIR [COMMAND...]"
-    [[ -n $root ]] || fail 2 "no folder for the root" "usage: tools/bare_root.sh bookworm|trixie DIR [COMMAND...]"
+    local usage="usage: tools/bare_root.sh bookworm|trixie[-arm64] DIR [COMMAND...]"
+    [[ $release =~ ^(bookworm|trixie)(-arm64)?$ ]] || fail 2 "no release '$release'" "$usage"
+    [[ -n $root ]] || fail 2 "no folder for the root" "$usage"
     if [[ -e $root/$marker ]]; then
         [[ $(<"$root/$marker") == "$release" ]] || fail 2 "$root is a root of $(<"$root/$marker"), not of $release" \
             "remedy: name another folder, or remove this one"
@@ -44,6 +45,9 @@ check_machine() {
         "remedy: as root, apt-get install debootstrap"
     unshare --mount --pid --fork true 2>/dev/null || fail 3 "this machine allows no mount namespace" \
         "remedy: in a container, start it with --privileged"
+    [[ $release != *-arm64 || $(uname -m) == aarch64 ]] || grep -qs '^flags:.*F' /proc/sys/fs/binfmt_misc/qemu-aarch64 ||
+        fail 3 "the kernel of this machine starts no programs of arm64" \
+            "remedy: as root, apt-get install qemu-user-static binfmt-support"
     mkdir -p "$root" || fail 3 "cannot make $root" "remedy: name a folder where root may write"
     free=$(df --output=avail -m "$root" | tail -1)
     [[ -e $root/$marker || $free -ge $needed_mib ]] || fail 3 "$root has $free MiB free, $needed_mib are needed" \
@@ -52,12 +56,14 @@ check_machine() {
 
 make_root() {
     local log mirror keys=/usr/share/keyrings/debian-archive-keyring.gpg
-    mirror=$("$here/debian_archives.sh" "$release" | sed -n '1s/ .*//p')
+    local options=(--variant=minbase --keyring="$keys")
+    [[ $release != *-arm64 ]] || options+=(--arch=arm64)
+    mirror=$("$here/debian_archives.sh" "${release%-arm64}" | sed -n '1s/ .*//p')
     [[ -f $keys ]] || fail 3 "the keys of Debian's archive are missing ($keys)" \
         "remedy: as root, apt-get install debian-archive-keyring"
     printf 'bare_root: a root of %s in %s, from %s\n' "$release" "$root" "$mirror"
     log=$(mktemp)
-    if ! debootstrap --variant=minbase --keyring="$keys" "$release" "$root" "$mirror" >"$log" 2>&1; then
+    if ! debootstrap "${options[@]}" "${release%-arm64}" "$root" "$mirror" >"$log" 2>&1; then
         tail -5 "$log" >&2
         ! grep -q '^E: Release signed by unknown key' "$log" || fail 3 "$keys has no key of $release" \
             "remedy: as root, apt-get install a newer debian-archive-keyring; then remove $root and try again"
@@ -85,7 +91,7 @@ keep() {
 copy_settings() {
     local bundle=${SSL_CERT_FILE:-/etc/ssl/certs/ca-certificates.crt}
     keep /etc/hosts /etc/resolv.conf /etc/hostname
-    "$here/debian_archives.sh" "$release" | sed 's/^/deb /; s/$/ main/' >"$root/etc/apt/sources.list"
+    "$here/debian_archives.sh" "${release%-arm64}" | sed 's/^/deb /; s/$/ main/' >"$root/etc/apt/sources.list"
     keep /etc/apt/auth.conf /etc/apt/auth.conf.d/*.conf /etc/netrc
     { apt-config dump 2>/dev/null || true; } | grep -iv 'auto-detect' | grep -iE \
         '^Acquire::(https?|ftp|Retries|Check-Valid-Until|Check-Date|ForceIPv[46]|Languages)' \

@@ -1,11 +1,13 @@
 #!/usr/bin/env bash
 # Prints a folder with the headers of CPython 3.13, with which the wheel for Python 3.12 and later is made where this machine's
-# own Python is older (tools/build_abi3_wheel.sh). They are those of Debian 13's package, unpacked in build/python; nothing
-# is installed, and no root is needed. A second start needs no network.
+# own Python is older (tools/build_more_wheels.sh). They are those of Debian 13's package, unpacked in build/python; nothing
+# is installed, and no root is needed. A second start needs no network. `tools/python_headers.sh arm64`: another processor's,
+# whose packages dpkg must know.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
-release=trixie package=libpython3.13-dev
-folder=$PWD/build/python/headers
+architecture=${1:-$(dpkg --print-architecture)}
+release=trixie package=libpython3.13-dev:$architecture
+folder=$PWD/build/python/headers/$architecture
 if [[ ! -f $folder/usr/include/python3.13/Python.h ]]; then
     apt=build/python/apt
     rm -rf "$apt" "$folder"
@@ -23,7 +25,7 @@ if [[ ! -f $folder/usr/include/python3.13/Python.h ]]; then
         exit 1
     fi
     mkdir -p "$folder"
-    dpkg-deb -x "$apt/$package"_*.deb "$folder"
+    dpkg-deb -x "$apt/${package%:*}"_*.deb "$folder"
     rm -rf "$apt"
 fi
 printf '%s\n' "$folder/usr/include/python3.13"

@@ -1,10 +1,11 @@
 #!/usr/bin/env bash
 # Tries each file of dist/ (tools/release.sh) in bare roots of Debian, with nothing installed but what it says it needs:
-#   tools/try_release.sh [bookworm|trixie ...]    default: both
+#   tools/try_release.sh [bookworm|trixie[-arm64] ...]    default: bookworm trixie
 # In each: the city with its control program, the viewer's page, a cluster of three processes, a run with the commands of
 # a bag of ROS 2, whose hashes are those of this computer; a run with nodes for ROS 2 and a server for Foxglove. Then,
 # with a compiler, a control program against the headers of the archive and the .deb. Needs root. The .deb is for
 # Debian 12, where its dependencies are; without Fast DDS, which it only recommends, it says what to install.
+# bookworm-arm64: the files for aarch64, in a root of that processor (tools/bare_root.sh).
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 releases=("$@")
@@ -49,10 +50,10 @@ try() {
     local name=$1 root=$2 command=$3 checks=$4
     if tools/bare_root.sh "$release" "$root" bash -c "set -e; cd /root/dist; $command; $checks" >"$root.log" 2>&1; then
         passed=$((passed + 1))
-        printf 'ok    %-9s %s\n' "$release" "$name"
+        printf 'ok    %-14s %s\n' "$release" "$name"
     else
         failed=$((failed + 1))
-        printf 'WRONG %-9s %s: the log is %s, its last lines:\n' "$release" "$name" "$root.log"
+        printf 'WRONG %-14s %s: the log is %s, its last lines:\n' "$release" "$name" "$root.log"
         tail -5 "$root.log"
     fi
 }
@@ -93,25 +94,27 @@ roboss run my_driver/world.sdf --client my_driver/build/my_driver.so --duration 
 '
 archive='PATH=$(echo /opt/roboss-*/bin):$PATH'
 for release in "${releases[@]}"; do
+    processor=$(uname -m) architecture=$(dpkg --print-architecture)
+    [[ $release != *-arm64 ]] || processor=aarch64 architecture=arm64
     root=${TMPDIR:-/var/tmp}/roboss_release_$release
     rm -rf --one-file-system "$root"
     tools/bare_root.sh "$release" "$root" >/dev/null
     rm -rf "$root/root/dist"
     cp -r dist "$root/root/dist"
     cp -r "$work/drive" "$work/bridge.yaml" "$root/root"
-    try archive "$root" 'apt-get update -q; apt-get install -q -y --no-install-recommends xz-utils; tar xf roboss-*.tar.xz -C /opt; '"$archive" "$checks$faces"
-    if [[ $release == bookworm ]]; then
-        try deb "$root" 'apt-get update -q; apt-get install -q -y --no-install-recommends ./roboss_*.deb' "$checks$no_face"
+    try archive "$root" 'apt-get update -q; apt-get install -q -y --no-install-recommends xz-utils; tar xf roboss-*-'$processor'.tar.xz -C /opt; '"$archive" "$checks$faces"
+    deb='apt-get update -q; apt-get install -q -y --no-install-recommends ./roboss_*_'$architecture.deb
+    if [[ $release == bookworm* ]]; then
+        try deb "$root" "$deb" "$checks$no_face"
         try "deb: nodes of ROS 2" "$root" "$(sed -n 's/^run \(libfastrtps[^ ]*\) .*/apt-get install -q -y --no-install-recommends \1/p' tools/packages.txt)" "$faces"
         tools/bare_root.sh "$release" "$root" apt-get remove -q -y roboss >/dev/null
     fi
     wheel=cp311  # of Python 3.11, which Debian 12 has; later releases take the one for all later Pythons
-    [[ $release == bookworm ]] || wheel=abi3
-    try wheel "$root" 'apt-get update -q; apt-get install -q -y --no-install-recommends python3-venv; python3 -m venv /opt/venv; /opt/venv/bin/pip install -q roboss-*-'$wheel'-*.whl; PATH=/opt/venv/bin:$PATH; python -c "import roboss; s = roboss.Simulation(roboss.example(\"pile.sdf\")); s.step(10); print(s.state_hash)"' "$checks$faces"
+    [[ $release == bookworm* ]] || wheel=abi3
+    try wheel "$root" 'apt-get update -q; apt-get install -q -y --no-install-recommends python3-venv; python3 -m venv /opt/venv; /opt/venv/bin/pip install -q roboss-*-'$wheel-*_$processor'.whl; PATH=/opt/venv/bin:$PATH; python -c "import roboss; s = roboss.Simulation(roboss.example(\"pile.sdf\")); s.step(10); print(s.state_hash)"' "$checks$faces"
     # Last, for it installs a compiler, and with it much else.
     try "archive: control program" "$root" "$archive" "$build_client"
-    [[ $release != bookworm ]] || try "deb: control program" "$root" 'apt-get install -q -y --no-install-recommends ./roboss_*.deb' \
-        "$build_client"
+    [[ $release != bookworm* ]] || try "deb: control program" "$root" "$deb" "$build_client"
     rm -rf --one-file-system "$root"
 done
 printf 'try_release: %d passed, %d failed\n' "$passed" "$failed"

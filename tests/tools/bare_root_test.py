@@ -14,7 +14,7 @@ STAND_INS = {
     "unshare": "exit 0",
     "df": "printf 'Avail\\n50000\\n'",
     "git": "cat \"$STAND_INS/files\"",
-    "debootstrap": "echo \"$*\" > \"$STAND_INS/call\"; mkdir -p \"$4\"/etc/apt/apt.conf.d \"$4/root\"",
+    "debootstrap": "echo \"$*\" > \"$STAND_INS/call\"; root=${@: -2:1}; mkdir -p \"$root\"/etc/apt/apt.conf.d \"$root/root\"",
     "apt-config": "printf '%s\\n' 'Acquire::http::Proxy \"http://proxy:3142\";' 'Acquire::IndexTargets::x \"\";' 'Acquire::http::"
                   "Proxy-Auto-Detect \"/usr/bin/gone\";' 'DPkg::Post-Invoke:: \"/usr/bin/gone\";'",
     "apt-get": ". /etc/os-release; d=$VERSION_CODENAME; printf '%s\\n' \"http://m/debian/ $d main\" \"http://m/debian/ $d contrib\" "
@@ -74,7 +74,7 @@ class BareRoot(Tree):
             self.assertIn(word, output)
 
     def test_refuses_an_unknown_release_and_no_folder(self):
-        self.refused(2, "no release 'sarge'", "usage: tools/bare_root.sh bookworm|trixie DIR", release="sarge")
+        self.refused(2, "no release 'sarge'", "usage: tools/bare_root.sh bookworm|trixie[-arm64] DIR", release="sarge")
         for words in ([], ["bookworm"], ["bookworm", ""]):
             code, output = self.start(self.tree / "tools/bare_root.sh", *words)
             self.assertEqual(code, 2)
@@ -114,6 +114,19 @@ class BareRoot(Tree):
             self.assertEqual((root / "etc/apt/sources.list").read_text().splitlines(), [
                 f"deb http://m/debian/ {release} main", f"deb http://m/security/ {release}-security main"])
             self.assertTrue((self.bin / "call").read_text().endswith(f" {release} {root} http://m/debian/\n"))
+
+    def test_makes_a_root_of_another_processor_that_the_kernel_can_start(self):
+        self.program(self.bin / "uname", "echo aarch64")
+        code, output = self.make("trixie-arm64")
+        self.assertEqual(code, 0, output)
+        call = (self.bin / "call").read_text()
+        self.assertIn(" --arch=arm64 ", call)
+        self.assertTrue(call.endswith(f" trixie {self.root} http://m/debian/\n"), call)
+        self.assertIn("deb http://m/debian/ trixie main", (self.root / "etc/apt/sources.list").read_text())
+        self.refused(2, "a root of trixie-arm64, not of trixie", release="trixie")
+        self.program(self.bin / "uname", "echo x86_64")
+        self.program(self.bin / "grep", "exit 1")
+        self.refused(3, "no programs of arm64", "qemu-user-static", release="trixie-arm64", root=self.base / "other")
 
     def test_takes_the_proxy_and_no_hooks_of_this_machine(self):
         self.assertEqual(self.make()[0], 0)

@@ -27,7 +27,7 @@ class CheckAarch64(unittest.TestCase):
             path.parent.mkdir(exist_ok=True)
             path.write_text(f"#!/bin/bash\n{text}\n")
             path.chmod(0o755)
-        for name in ("check_aarch64", "packages.txt"):
+        for name in ("check_aarch64", "setup_aarch64.sh", "packages.txt"):
             shutil.copy(TOOLS / name, self.root / "tools")
 
     def run_tool(self, *words, code=0):
