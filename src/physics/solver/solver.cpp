@@ -3,8 +3,6 @@
 
 #include <algorithm>
 
-#include "physics/solver/fast_accuracy.h"
-
 namespace roboss {
 namespace {
 
@@ -36,8 +34,6 @@ void IslandSolver::solve_any(const Problem& p, std::vector<double>& v, Report& r
     plan_ = piled ? kPilePlan : p.robots.size() > 1 ? kCrowdPlan : newton::Plan{};
     start(p, v);
     friction::keep_bounds(p.rows, start_bounds_);
-    if (piled && !p.position && p.rows.couplings.empty() && is_fast(p.accuracy))
-        return take_sweeps(p, v, report);
     if (piled) {
         if (p.position ? displace(p, v, report) : solve_by_sweeps(p, v, report)) return;
         start_as_expected(p, alone, v, report);

@@ -48,7 +48,6 @@ class IslandSolver : Newton<double, Hessian> {
     void expect_swept(const Problem& p);
     bool displace(const Problem& p, std::vector<double>& v, Report& report);
     void settle_for_sweeps(Problem p, std::vector<double>& v);
-    void take_sweeps(const Problem& p, std::vector<double>& v, Report& report);
     void take_swept(const Problem& p, const std::vector<double>& v);
     // interior_point.cpp
     void interior_point(const Problem& p, std::vector<double>& v, Report& report);
