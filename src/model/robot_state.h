@@ -26,8 +26,8 @@ struct MotorSetpointT {
     MotorMode mode = MotorMode::kPassive;  ///< what `target` is
     T target = 0;                          ///< rad/s, rad, N m (or m/s, m, N)
     T max_effort = 0;                      ///< bound in force, N m or N
-    T impulse = 0;                         ///< that it gave in the last tick, N m s or N s
-    T load = 0;  ///< the smaller of the last two impulses, of one sign: what a hard motor starts from
+    T impulse = 0;  ///< N m s or N s, that it gave in the last tick; if it is not hard: limits and friction
+    T load = 0;     ///< the smaller of the last two impulses, of one sign: what a hard motor starts from
     /// Compares all members.
     friend bool operator==(const MotorSetpointT&, const MotorSetpointT&) = default;
 };

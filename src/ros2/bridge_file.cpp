@@ -19,9 +19,9 @@ namespace roboss::ros2 {
 namespace {
 
 constexpr std::size_t kEntriesMost = 10'000, kKeysMost = 64;
-constexpr std::size_t kValueMost = 1'000;    // characters: an alias makes many of one
-constexpr std::size_t kQuoted = 60;          // characters of a key that is not known
-constexpr std::size_t kNoticesMost = 1'000;  // of a file
+constexpr std::size_t kValueMost = 1'000;             // characters: an alias makes many of one
+constexpr std::size_t kQuoted = 60;                   // characters of a key that is not known
+constexpr std::size_t kNoticesMost = 1'000;           // of a file
 constexpr const char* kBridgeNode = "ros_gz_bridge";  // "~/scan" is "/ros_gz_bridge/scan"
 
 constexpr std::array kBridgeKeys{"topic_name",

@@ -34,12 +34,17 @@ bool flies(const Model& model, const RobotWork& work, const IslandScratch& s) {
     return moves_freely(model, work) && !(s.group.keep_reactions && !work.type->loops.empty());
 }
 
+/// By the last solution, of the exact solver in the rows, of soft substeps in the contacts.
+bool pushes(const IslandScratch& s, std::size_t c) {
+    return (s.rows.contacts.empty() ? s.contacts[c]->impulse : s.rows.contacts[c].normal.impulse) > 0;
+}
+
 /// Marks the robots that another robot or scenery pushes, by the impulses of the last solution, and notes
 /// whether the island is anchored: pushed by something that does not move freely.
 void mark_touched(std::span<const RobotWork> robots, IslandScratch& s) {
-    for (std::size_t c = 0; c < s.rows.contacts.size(); ++c) {
+    for (std::size_t c = 0; c < s.contacts.size(); ++c) {
         const Contact& contact = *s.contacts[c];
-        if (s.rows.contacts[c].normal.impulse <= 0 || contact.robot_a == contact.robot_b) continue;
+        if (!pushes(s, c) || contact.robot_a == contact.robot_b) continue;
         s.anchored |= touches_fixed(robots, contact);
         s.touched[static_cast<std::size_t>(contact.robot_a)] = 1;
         if (contact.robot_b >= 0) s.touched[static_cast<std::size_t>(contact.robot_b)] = 1;
@@ -50,7 +55,7 @@ void mark_touched(std::span<const RobotWork> robots, IslandScratch& s) {
 /// an island from outside its momentum is to stay, and that of its energy that no motor gives: then all
 /// drift. Others do where they turn fast.
 bool choose_drifting(const Model& model, std::span<const RobotWork> robots, IslandScratch& s,
-                     std::span<const std::uint32_t> members) {
+                     std::span<const std::uint32_t> members, bool is_soft = false) {
     s.touched.resize(robots.size());
     for (const std::uint32_t m : members) s.touched[m] = 0;
     s.anchored = false;
@@ -60,6 +65,7 @@ bool choose_drifting(const Model& model, std::span<const RobotWork> robots, Isla
     for (std::size_t m = 0; m < members.size(); ++m) {
         const RobotWork& work = robots[members[m]];
         if (work.type->nv == 0 || drag_is_stiff(model, work)) continue;
+        if (is_soft && work.type->dofs.empty()) continue;  // soft substeps move free bodies
         if (work.type->feels_flow && flow_is_stiff(model, work)) continue;
         const bool kept = s.touched[members[m]]
                               ? !s.anchored
@@ -111,9 +117,11 @@ void drift(const Model& model, RobotWork& work, std::size_t member, bool touched
 /// Writes the solved velocities into the states and moves the coordinates. A robot that is near something but
 /// not pushed moves freely, else a ball would lose height in every tick that it spends close to the ground.
 void finish_island(const Model& model, std::span<RobotWork> robots, IslandScratch& s,
-                   std::span<const std::uint32_t> members, std::span<const double> displacement) {
+                   std::span<const std::uint32_t> members, std::span<const double> displacement,
+                   bool is_soft = false) {
     for (std::size_t m = 0; m < members.size(); ++m) {
         RobotWork& work = robots[members[m]];
+        if (is_soft && work.type->dofs.empty()) continue;  // soft substeps move free bodies
         const auto offset = static_cast<std::size_t>(s.offsets[m]);
         const auto nv = static_cast<std::size_t>(work.type->nv);
         if (!work.pushed && flies(model, work, s)) {
@@ -360,7 +368,65 @@ void gather_bonds(std::span<const std::uint32_t> members, IslandScratch& s) {
             s.bonds.push_back(*at);
 }
 
+/// What the next tick starts from: what hard motors gave; of an axis without one, what its limits and
+/// friction bore.
+void remember_joints(const Model& model, const RobotWork& robot, std::span<const JointRow> rows, int offset) {
+    const RobotType& type = *robot.type;
+    std::vector<MotorSetpoint>& motors = robot.state->motors;
+    const auto is_hard = [&](std::size_t d) {
+        return has_hard_motor(tree_axis<double>(model, type, {robot.state->q, robot.state->v, motors}, d));
+    };
+    for (std::size_t d = 0; d < type.dofs.size(); ++d)
+        if (!is_hard(d)) motors[d].impulse = motors[d].load = 0;
+    for (const JointRow& row : rows) {
+        const auto d = static_cast<std::size_t>(row.dof - offset - type.base_nv());
+        if (row.motor != nullptr)
+            store_warm_start(row.impulse, motors[d]);
+        else if (soft::is_remembered(row) && !is_hard(d))
+            motors[d].impulse += row.impulse;
+    }
+}
+
 }  // namespace
+
+/// Robots, their places among the velocities, and what drives those with joints; true if there are any.
+bool ContactIsland::gather_joints() {
+    s_.robots.clear(), s_.offsets.clear(), s_.rows.clear(), s_.v_before.clear();
+    s_.offsets_of_group.resize(robots_.size());
+    bool any = false;
+    for (const std::uint32_t m : members_) {
+        RobotWork& work = robots_[m];
+        const int offset = static_cast<int>(s_.v_before.size());
+        s_.offsets_of_group[m] = offset;
+        s_.robots.push_back(&work), s_.offsets.push_back(offset);
+        s_.v_before.insert(s_.v_before.end(), work.state->v.begin(), work.state->v.end());
+        if (work.type->dofs.empty()) continue;
+        any = true;
+        compute_impulse(model_, model_.dt_s, 1.0, work.state->q, work.state->v, work);
+        compute_mass_matrix<double>(*work.type, model_.dt_s, work);
+        limit_velocity_forces(model_, work, s_.free_buffer);
+        add_joint_rows(model_, work, offset, s_.buffer, s_.rows);
+    }
+    s_.v.resize(s_.v_before.size()), s_.displacement.resize(s_.v.size());
+    return any;
+}
+
+/// How soft substeps' robots with joints are to move, and what their motors start from in the next tick.
+void ContactIsland::finish_joints() {
+    for (JointRow& row : s_.rows.joints) row.stiffness = 1 / row.compliance;
+    drifts_ = choose_drifting(model_, robots_, s_, members_, true);
+    if (drifts_) s_.soft.prepare_drift(soft_island(), s_.drifts, s_.split.kick, s_.displacement);
+    std::size_t row = 0;
+    for (std::size_t m = 0; m < members_.size(); ++m) {
+        const RobotWork& work = robots_[members_[m]];
+        const auto end = static_cast<std::size_t>(
+            std::ranges::lower_bound(s_.rows.joints, s_.offsets[m] + work.type->nv, {}, &JointRow::dof) -
+            s_.rows.joints.begin());
+        remember_joints(model_, work, std::span(s_.rows.joints).subspan(row, end - row), s_.offsets[m]);
+        row = end;
+    }
+    s_.large_turns.assign(members_.size(), 0), s_.gained_moment = {};
+}
 
 ContactIsland::ContactIsland(const Model& model, std::span<RobotWork> robots,
                              std::span<const std::uint32_t> members, IslandScratch& scratch,
@@ -441,8 +507,11 @@ void ContactIsland::integrate() {
         return;
     }
     if (is_soft_) {
-        guards_energy_ = s_.soft_guard.start(soft_island(), s_.free_buffer.work);
+        guards_momentum_ = s_.soft_guard.start(soft_island(), s_.free_buffer.work);
+        guards_energy_ = has_joints_ && start_guard(model_, robots_, s_, members_, s_.soft.bounces(),
+                                                    drifts_ || s_.soft.is_deep());
         s_.soft.move(soft_island(), s_.free_buffer);
+        if (has_joints_) finish_island(model_, robots_, s_, members_, s_.displacement, true);
         return;
     }
     s_.gained_moment = {};
@@ -454,7 +523,8 @@ void ContactIsland::integrate() {
 void ContactIsland::guard() {
     if (!has_rows_) return;
     if (is_soft_) {
-        if (guards_energy_) s_.soft_guard.finish(soft_island(), s_.free_buffer.work);
+        if (guards_momentum_) s_.soft_guard.finish(soft_island(), s_.free_buffer.work);
+        if (guards_energy_) s_.guard.finish(model_, robots_, members_, s_.free_buffer.work);
         return;
     }
     const auto moved_well = [&](std::uint32_t m) {

@@ -60,7 +60,11 @@ class ContactIsland {
     bool take_soft();
     void solve_soft();
     bool find_soft_hits(std::size_t found, bool first);
-    soft::Island soft_island() { return {model_, robots_, members_, s_.contacts, s_.surfaces}; }
+    soft::Island soft_island() {
+        return {model_, robots_, members_, s_.contacts, s_.surfaces, s_.rows.joints, s_.offsets_of_group};
+    }
+    bool gather_joints();
+    void finish_joints();
     void profile_island(int largest_part);
     void close_bonds();
 
@@ -71,11 +75,12 @@ class ContactIsland {
     StepReport& report_;
     bool has_rows_ = true;
     bool is_soft_ = false;             // solved by soft substeps (soft/soft_solver.h)
+    bool has_joints_ = false;          // and robots with joints are among its members
     bool needs_displacement_ = false;  // it is solved for by itself
     bool drifts_ = false;              // a member takes the kick-drift step
     bool is_tied_ = false;             // a bond joins it to scenery, or to what does not move freely
     bool bounces_ = false;             // throws_back
-    bool guards_energy_ = false;
+    bool guards_energy_ = false, guards_momentum_ = false;
     int iterations_before_ = 0, largest_part_ = 0;  // for profiles
 };
 

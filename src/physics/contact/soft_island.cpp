@@ -23,8 +23,11 @@ bool ContactIsland::take_soft() {
             if (!soft::can_solve(model_, c, surface)) return s_.contacts.clear(), false;
             s_.contacts.push_back(&c), s_.surfaces.push_back(surface);
         }
-    if (!s_.contacts.empty() && s_.soft.take(soft_island())) return true;
-    return s_.contacts.clear(), false;
+    if (s_.contacts.empty()) return false;
+    has_joints_ = gather_joints();
+    if (!s_.soft.take(soft_island())) return s_.contacts.clear(), false;
+    s_.soft.take_contacts(soft_island());
+    return true;
 }
 
 /// Solves, looks for what the motion hits besides its contacts, and solves again with the hits.
@@ -34,15 +37,19 @@ void ContactIsland::solve_soft() {
     s_.look.clear();
     for (int round = 0;; ++round) {
         s_.soft.solve(soft_island(), s_.team);
-        s_.soft.mark_pushed();
+        s_.soft.mark_pushed(soft_island());
         ++report_.iterations;
         if (round == kRounds || !find_soft_hits(found, round == 0)) break;
         s_.contacts.resize(found), s_.surfaces.resize(found);
         for (Contact& hit : s_.look.hits())
             s_.contacts.push_back(&hit), s_.surfaces.push_back(surface_of(model_, robots_, hit));
-        s_.soft.take(soft_island());
+        s_.soft.take_contacts(soft_island());
     }
     s_.soft.give_impulses(soft_island());
+    if (has_joints_) {
+        s_.soft.give_motion(soft_island(), s_.offsets_of_group, s_.v, s_.displacement);
+        finish_joints();
+    }
     if (!s_.group.profiles_solver) return;
     profile_island(static_cast<int>(members_.size()));
     ++report_.profile.solver.velocities[static_cast<std::size_t>(SolveMethod::kSoft)];
@@ -50,10 +57,6 @@ void ContactIsland::solve_soft() {
 
 /// Looks for shapes that the solved motion hits and that it did not touch; false if there are none.
 bool ContactIsland::find_soft_hits(std::size_t found, bool first) {
-    s_.offsets_of_group.resize(robots_.size());
-    int size = 0;
-    for (const std::uint32_t m : members_) s_.offsets_of_group[m] = size, size += robots_[m].type->nv;
-    s_.v.resize(static_cast<std::size_t>(size)), s_.displacement.resize(s_.v.size());
     s_.soft.give_motion(soft_island(), s_.offsets_of_group, s_.v, s_.displacement);
     if (!is_plausible(s_.displacement)) return false;
     s_.drifts.assign(members_.size(), 0), s_.large_turns.assign(members_.size(), 0);

@@ -6,19 +6,12 @@
 
 #include "core/lanes_neon.h"
 #include "core/lanes_x86.h"
-#include "physics/lanes/lane_six.h"
-#include "physics/lanes/lane_transpose.h"
+#include "physics/lanes/lane_soft_sides.h"
 #include "physics/soft/soft_kernel.h"
 
 namespace roboss {
 namespace {
 
-[[gnu::always_inline]] inline Part at(const soft::Eight& numbers, std::size_t lane) {
-    return load_part(numbers.x + lane);
-}
-[[gnu::always_inline]] inline void put(const Part& part, std::size_t lane, soft::Eight& numbers) {
-    store_part(part, numbers.x + lane);
-}
 [[gnu::always_inline]] inline Part larger_of(const Part& a, const Part& b) {
     return a > b ? a : b;
 }
@@ -36,87 +29,41 @@ namespace {
 #endif
 }
 
-/// Six numbers of a body of each lane.
-struct Columns {
-    Part x[6];
-};
-
-[[gnu::always_inline]] inline Columns gather(const soft::Motion* bodies, const int* chosen) {
-    Columns columns;
-    for (std::size_t k = 0; k < 6; k += kWidth) {
-        Part block[kWidth];
-        for (std::size_t i = 0; i < kWidth; ++i) block[i] = load_part(bodies[chosen[i]].x + k);
-        transpose<kWidth>(block);
-        for (std::size_t i = 0; i < kWidth && k + i < 6; ++i) columns.x[k + i] = block[i];
-    }
-    return columns;
-}
-[[gnu::always_inline]] inline void scatter(const Columns& columns, const int* chosen, soft::Motion* bodies) {
-    for (std::size_t k = 0; k < 6; k += kWidth) {
-        Part block[kWidth];
-        for (std::size_t i = 0; i < kWidth; ++i) block[i] = k + i < 6 ? columns.x[k + i] : Part{};
-        transpose<kWidth>(block);
-        for (std::size_t i = 0; i < kWidth; ++i) store_part(block[i], bodies[chosen[i]].x + k);
-    }
-}
-[[gnu::always_inline]] inline Part dot3(const soft::Eight* j, const Part* x, std::size_t lane) {
-    return (at(j[0], lane) * x[0] + at(j[1], lane) * x[1]) + at(j[2], lane) * x[2];
-}
-[[gnu::always_inline]] inline void add3(Part* x, const soft::Eight* j, const Part& f, std::size_t lane) {
-    for (std::size_t i = 0; i < 3; ++i) x[i] = x[i] + at(j[i], lane) * f;
-}
-
-/// The patches of a batch from a lane on.
-template <bool kScenery>
+/// The patches of a batch from a lane on. `Sides`: what moves at both sides (lane_soft_sides.h).
+template <class Sides, bool kScenery>
 class PatchLanes {
   public:
     [[gnu::always_inline]] PatchLanes(soft::Problem& problem, const soft::Batch& batch, soft::Patch& patch,
                                       std::size_t lane)
-        : problem_(problem), batch_(batch), patch_(patch), lane_(lane) {
-        a_ = gather(problem.velocity.data(), batch.a + lane);
-        if constexpr (!kScenery) b_ = gather(problem.velocity.data(), batch.b + lane);
-        inverse_mass_a_ = at(patch.inverse_mass_a, lane), inverse_mass_b_ = at(patch.inverse_mass_b, lane);
-    }
+        : points_(problem.points.data() + batch.first),
+          count_(batch.points),
+          patch_(patch),
+          lane_(lane),
+          sides_(problem, batch, patch, lane) {}
 
-    [[gnu::always_inline]] void finish() {
-        scatter(a_, batch_.a + lane_, problem_.velocity.data());
-        if constexpr (!kScenery) scatter(b_, batch_.b + lane_, problem_.velocity.data());
-    }
+    [[gnu::always_inline]] void finish() { sides_.finish(); }
 
     [[gnu::always_inline]] void warm() {
-        Part sum{};
-        for (int k = 0; k < batch_.points; ++k) {
-            const soft::Point& p = point(k);
-            const Part f = at(p.impulse, lane_);
-            sum = sum + f;
-            turn(p.turn_a, p.turn_b, f);
-        }
-        push(patch_.n, sum);
-        const Part f1 = at(patch_.slide_1, lane_), f2 = at(patch_.slide_2, lane_);
-        push(patch_.t1, f1), push(patch_.t2, f2);
-        turn(patch_.slide_1a, patch_.slide_1b, f1), turn(patch_.slide_2a, patch_.slide_2b, f2);
-        turn(patch_.twist_a, patch_.twist_b, at(patch_.twist, lane_));
+        sides_.start_warm();
+        for (int k = 0; k < count_; ++k) sides_.push_point(k, points_[k], at(points_[k].impulse, lane_));
+        sides_.finish_normals();
+        sides_.push_slide(at(patch_.slide_1, lane_), at(patch_.slide_2, lane_));
+        sides_.push_twist(at(patch_.twist, lane_));
     }
 
-    /// `kRecovers`: overlaps are pushed out. The relative speed along the normal is kept as one number while
-    /// the points of the patch are solved.
+    /// `kRecovers`: overlaps are pushed out.
     template <bool kRecovers>
     [[gnu::always_inline]] void solve_normals(const soft::Substep& substep) {
         const soft::Softness& soft = kScenery ? substep.scenery : substep.pair;
         const Part per_h = all(1.0 / substep.h), elapsed = all(substep.elapsed), zero{}, one = all(1.0),
                    rate = all(soft.rate), mass_share = all(soft.mass_share),
                    impulse_share = all(soft.impulse_share), fastest = zero - at(patch_.recovery, lane_);
-        Columns da = gather(problem_.displacement.data(), batch_.a + lane_), db;
-        if constexpr (!kScenery) db = gather(problem_.displacement.data(), batch_.b + lane_);
-        const Part moved = along(patch_.n, da, db);
-        Part speed_n = along(patch_.n, a_, b_), sum{};
+        sides_.start_normals();
         total_ = bound_ = zero;
-        for (int k = 0; k < batch_.points; ++k) {
-            soft::Point& p = point(k);
+        for (int k = 0; k < count_; ++k) {
+            soft::Point& p = points_[k];
             const Part own = at(p.speed, lane_);
-            const Part speed = (speed_n + own) + turning(p.turn_a, p.turn_b, a_, b_),
-                       gap =
-                           (at(p.gap, lane_) + moved) + (turning(p.turn_a, p.turn_b, da, db) + own * elapsed),
+            const Part speed = sides_.speed(k, p, own), gap = sides_.gap(k, p, own * elapsed),
                        f = at(p.impulse, lane_), mass = at(p.mass, lane_);
             const auto apart = gap > zero;
             const Part closing = apart ? gap * per_h : zero;
@@ -135,98 +82,88 @@ class PatchLanes {
                 put(at(p.total, lane_) + now, lane_, p.total);
                 bound_ = bound_ + at(p.lever, lane_) * now;
             }
-            sum = sum + change, total_ = total_ + now;
-            speed_n = speed_n + inverse_mass() * change;
-            turn(p.turn_a, p.turn_b, change);
+            total_ = total_ + now;
+            sides_.push_point(k, p, change);
         }
-        push(patch_.n, sum);
+        sides_.finish_normals();
     }
 
-    /// After solve_normals.
-    [[gnu::always_inline]] void solve_twist() {
-        const Part zero{}, f = at(patch_.twist, lane_);
-        const Part speed = turning(patch_.twist_a, patch_.twist_b, a_, b_) + at(patch_.speed_twist, lane_);
-        Part now = f - at(patch_.mass_twist, lane_) * speed;
-        now = now > bound_ ? bound_ : now;
-        now = now < zero - bound_ ? zero - bound_ : now;
-        put(now, lane_, patch_.twist);
-        put(at(patch_.total_twist, lane_) + now, lane_, patch_.total_twist);
-        turn(patch_.twist_a, patch_.twist_b, now - f);
-    }
-
-    [[gnu::always_inline]] void solve_slide() {
-        const Part u1 = (along(patch_.t1, a_, b_) + turning(patch_.slide_1a, patch_.slide_1b, a_, b_)) +
-                        at(patch_.speed_1, lane_),
-                   u2 = (along(patch_.t2, a_, b_) + turning(patch_.slide_2a, patch_.slide_2b, a_, b_)) +
-                        at(patch_.speed_2, lane_);
-        const Part f1 = at(patch_.slide_1, lane_), f2 = at(patch_.slide_2, lane_);
-        const Part m12 = at(patch_.mass_12, lane_);
-        Part g1 = f1 - (at(patch_.mass_11, lane_) * u1 + m12 * u2),
-             g2 = f2 - (m12 * u1 + at(patch_.mass_22, lane_) * u2);
-        const Part bound = at(patch_.coefficient, lane_) * total_, size2 = g1 * g1 + g2 * g2;
-        const Part cut = size2 > bound * bound ? bound / root_of(size2) : all(1.0);
-        g1 = g1 * cut, g2 = g2 * cut;
-        put(g1, lane_, patch_.slide_1), put(g2, lane_, patch_.slide_2);
-        put(at(patch_.total_1, lane_) + g1, lane_, patch_.total_1);
-        put(at(patch_.total_2, lane_) + g2, lane_, patch_.total_2);
-        const Part c1 = g1 - f1, c2 = g2 - f2;
-        push(patch_.t1, c1), push(patch_.t2, c2);
-        turn(patch_.slide_1a, patch_.slide_1b, c1), turn(patch_.slide_2a, patch_.slide_2b, c2);
+    /// After solve_normals. Force and twist keep within an ellipsoid, whose size is the bound of each alone.
+    /// Where the patch slides, both act against the motion: force = -u / s and twist = -w / s_w. So the next
+    /// guess is the solution of (K + s) force = K (force so far) - u, with s as the present motion has it; 0,
+    /// which would stop the patch, where it hardly moves.
+    [[gnu::always_inline]] void solve_friction() {
+        constexpr double kHardly = 2e-3;  // m/s
+        const Part zero{}, one = all(1.0), bound = at(patch_.coefficient, lane_) * total_,
+                           size2 = bound * bound, twist2 = bound_ * bound_;
+        const Part u1 = slide_speed_1(), u2 = slide_speed_2(),
+                   w = sides_.twist_speed() + at(patch_.speed_twist, lane_);
+        const Part per_size2 = one / (size2 > zero ? size2 : one),
+                   per_twist2 = one / (twist2 > zero ? twist2 : one);
+        const Part power = root_of((u1 * u1 + u2 * u2) * size2 + w * w * twist2),
+                   slides = larger_of(power - all(kHardly) * bound, zero);
+        const Part left = one - solve_twist(w, slides * per_twist2, per_twist2);
+        solve_slide(slides * per_size2, size2 * larger_of(left, zero));
     }
 
     /// Points that were hit and bounce, once more.
     [[gnu::always_inline]] void bounce() {
         const Part zero{};
-        for (int k = 0; k < batch_.points; ++k) {
-            soft::Point& p = point(k);
+        for (int k = 0; k < count_; ++k) {
+            soft::Point& p = points_[k];
             const Part wanted = at(p.bounce, lane_), total = at(p.total, lane_), f = at(p.impulse, lane_);
-            const Part speed =
-                (along(patch_.n, a_, b_) + at(p.speed, lane_)) + turning(p.turn_a, p.turn_b, a_, b_);
+            sides_.start_bounce();
+            const Part speed = sides_.speed(k, p, at(p.speed, lane_));
             const Part target = wanted > zero ? wanted : speed,
                        change = total > zero ? at(p.mass, lane_) * (target - speed) : zero;
             const Part now = larger_of(f + change, zero);
             put(total + (now - f), lane_, p.total);
-            push(patch_.n, now - f), turn(p.turn_a, p.turn_b, now - f);
+            sides_.push_point(k, p, now - f);
+            sides_.finish_normals();
         }
     }
 
   private:
-    [[gnu::always_inline]] soft::Point& point(int k) const {
-        return problem_.points[batch_.first + static_cast<std::size_t>(k)];
+    [[gnu::always_inline]] Part slide_speed_1() const {
+        return sides_.slide_speed_1() + at(patch_.speed_1, lane_);
     }
-    [[gnu::always_inline]] Part inverse_mass() const {
-        return kScenery ? inverse_mass_a_ : inverse_mass_a_ + inverse_mass_b_;
-    }
-    [[gnu::always_inline]] Part along(const soft::Eight* direction, const Columns& a,
-                                      const Columns& b) const {
-        if constexpr (kScenery) return dot3(direction, a.x, lane_);
-        Part difference[3];
-        for (std::size_t i = 0; i < 3; ++i) difference[i] = a.x[i] - b.x[i];
-        return dot3(direction, difference, lane_);
-    }
-    [[gnu::always_inline]] Part turning(const soft::Eight* turn_a, const soft::Eight* turn_b,
-                                        const Columns& a, const Columns& b) const {
-        if constexpr (kScenery) return dot3(turn_a, a.x + 3, lane_);
-        return dot3(turn_a, a.x + 3, lane_) + dot3(turn_b, b.x + 3, lane_);
-    }
-    [[gnu::always_inline]] void push(const soft::Eight* direction, const Part& f) {
-        const Part by_a = inverse_mass_a_ * f, by_b = inverse_mass_b_ * f;
-        for (std::size_t i = 0; i < 3; ++i) {
-            a_.x[i] = a_.x[i] + at(direction[i], lane_) * by_a;
-            if constexpr (!kScenery) b_.x[i] = b_.x[i] - at(direction[i], lane_) * by_b;
-        }
-    }
-    [[gnu::always_inline]] void turn(const soft::Eight* turn_a, const soft::Eight* turn_b, const Part& f) {
-        add3(a_.x + 3, turn_a, f, lane_);
-        if constexpr (!kScenery) add3(b_.x + 3, turn_b, f, lane_);
+    [[gnu::always_inline]] Part slide_speed_2() const {
+        return sides_.slide_speed_2() + at(patch_.speed_2, lane_);
     }
 
-    soft::Problem& problem_;
-    const soft::Batch& batch_;
+    /// The square of the share of the ellipsoid that it takes.
+    [[gnu::always_inline]] Part solve_twist(const Part& w, const Part& s, const Part& per_bound2) {
+        const Part zero{}, f = at(patch_.twist, lane_), k = at(patch_.k_twist, lane_), sum = k + s;
+        Part now = (k * f - w) / (sum > zero ? sum : all(1.0));
+        now = now > bound_ ? bound_ : now;
+        now = now < zero - bound_ ? zero - bound_ : now;
+        put(now, lane_, patch_.twist);
+        put(at(patch_.total_twist, lane_) + now, lane_, patch_.total_twist);
+        sides_.push_twist(now - f);
+        return now * now * per_bound2;
+    }
+
+    [[gnu::always_inline]] void solve_slide(const Part& s, const Part& bound2) {
+        const Part u1 = slide_speed_1(), u2 = slide_speed_2(), zero{};
+        const Part f1 = at(patch_.slide_1, lane_), f2 = at(patch_.slide_2, lane_),
+                   k11 = at(patch_.k_11, lane_), k12 = at(patch_.k_12, lane_), k22 = at(patch_.k_22, lane_);
+        const Part a11 = k11 + s, a22 = k22 + s, det = a11 * a22 - k12 * k12,
+                   inverse = all(1.0) / (det > zero ? det : all(1.0)), c1 = (k11 * f1 + k12 * f2) - u1,
+                   c2 = (k12 * f1 + k22 * f2) - u2;
+        Part g1 = (a22 * c1 - k12 * c2) * inverse, g2 = (a11 * c2 - k12 * c1) * inverse;
+        const Part size2 = g1 * g1 + g2 * g2, cut = size2 > bound2 ? root_of(bound2 / size2) : all(1.0);
+        g1 = g1 * cut, g2 = g2 * cut;
+        put(g1, lane_, patch_.slide_1), put(g2, lane_, patch_.slide_2);
+        put(at(patch_.total_1, lane_) + g1, lane_, patch_.total_1);
+        put(at(patch_.total_2, lane_) + g2, lane_, patch_.total_2);
+        sides_.push_slide(g1 - f1, g2 - f2);
+    }
+
+    soft::Point* points_;
+    int count_;
     soft::Patch& patch_;
     std::size_t lane_;
-    Columns a_, b_;
-    Part inverse_mass_a_, inverse_mass_b_;
+    Sides sides_;
     Part total_, bound_;  // of the normals: their impulses; the twist that they allow
 };
 
@@ -237,19 +174,33 @@ class LaneSoft final : public soft::Kernel {
         for (std::size_t k = first; k < last; ++k) {
             const soft::Batch& batch = problem.batches[k];
             for (std::size_t lane = 0; lane < static_cast<std::size_t>(batch.patches); lane += kWidth) {
-                if (batch.scenery)
-                    run_lanes<true>(problem, k, lane, pass, substep);
-                else
-                    run_lanes<false>(problem, k, lane, pass, substep);
+                if (batch.jointed && batch.path_a.further == 1 && batch.path_b.further == 1) {
+                    run_jointed<1>(problem, k, lane, pass, substep);
+                } else if (batch.jointed) {
+                    run_jointed<0>(problem, k, lane, pass, substep);
+                } else if (batch.scenery) {
+                    run_lanes<BodySides<true>, true>(problem, k, lane, pass, substep);
+                } else {
+                    run_lanes<BodySides<false>, false>(problem, k, lane, pass, substep);
+                }
             }
         }
     }
 
   private:
-    template <bool kScenery>
+    template <int kFurther>
+    [[gnu::always_inline]] static void run_jointed(soft::Problem& problem, std::size_t batch,
+                                                   std::size_t lane, soft::Pass pass,
+                                                   const soft::Substep& substep) {
+        if (problem.batches[batch].scenery)
+            run_lanes<TreeSides<true, kFurther>, true>(problem, batch, lane, pass, substep);
+        else
+            run_lanes<TreeSides<false, kFurther>, false>(problem, batch, lane, pass, substep);
+    }
+    template <class Sides, bool kScenery>
     [[gnu::always_inline]] static void run_lanes(soft::Problem& problem, std::size_t batch, std::size_t lane,
                                                  soft::Pass pass, const soft::Substep& substep) {
-        PatchLanes<kScenery> lanes(problem, problem.batches[batch], problem.patches[batch], lane);
+        PatchLanes<Sides, kScenery> lanes(problem, problem.batches[batch], problem.patches[batch], lane);
         switch (pass) {
             case soft::Pass::kWarm:
                 lanes.warm();
@@ -259,8 +210,7 @@ class LaneSoft final : public soft::Kernel {
                 break;
             case soft::Pass::kRelax:
                 lanes.template solve_normals<false>(substep);
-                lanes.solve_twist();
-                lanes.solve_slide();
+                lanes.solve_friction();
                 break;
             case soft::Pass::kBounce:
                 lanes.bounce();

@@ -13,11 +13,17 @@ namespace roboss::soft {
 
 /// The contact points of a pair of shapes that have one normal, and the bodies that they push.
 struct Pair {
-    int a = 0, b = -1;         // b: -1 for scenery
+    int a = 0, b = -1;         // of Problem::velocity; b: -1 for scenery, and for a robot that touches itself
     std::uint32_t first = 0;   // contact
     std::uint32_t points = 0;  // at most eight
     bool swapped = false;      // a is side B of the contact, which scenery is side A of
-    Vec3 middle;               // of its points, where its friction acts, world axes
+    bool jointed = false;      // a or b is a robot with joints
+    bool itself = false;       // two bodies of robot a
+    std::uint32_t sides = 0;   // of a jointed one, in the solver's list
+    int further_a = 0, further_b = 0;  // columns beyond six
+    Vec3 middle;                       // of its points, where its friction acts, world axes
+
+    int further() const { return further_a > further_b ? further_a : further_b; }
 };
 
 /// Greedy colouring in the order of the pairs: two bodies take the lowest colour that neither has. Pairs with
@@ -37,11 +43,13 @@ class Batches {
   private:
     std::uint32_t take_colour(const Pair& pair);
     void fill(std::size_t bodies, std::span<const Pair> pairs, Problem& problem);
+    static void make_room(Problem& problem);
 
-    std::vector<std::uint64_t> taken_;              // by body: the lowest 64 colours
-    std::vector<std::uint32_t> further_, scenery_;  // by body: the first free one beyond, and of scenery
-    std::vector<std::uint64_t> places_;             // colour, points, pair
-    std::vector<std::uint32_t> colours_, order_, first_pairs_;  // by place; by batch
+    std::vector<std::uint64_t> taken_;                // by body: the lowest 64 colours
+    std::vector<std::uint32_t> further_, scenery_;    // by body: the first free one beyond, and of scenery
+    std::vector<std::uint64_t> places_;               // colour, columns, points, pair
+    std::vector<std::uint32_t> colours_;              // by place: the colour, and whether joints take part
+    std::vector<std::uint32_t> order_, first_pairs_;  // by place; by batch
 };
 
 }  // namespace roboss::soft

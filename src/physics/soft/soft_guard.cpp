@@ -16,8 +16,9 @@ Vec3 own_momentum(const BodySums& sums) {
 bool is_left_alone(const Island& island, std::uint32_t member) {
     const RobotWork& robot = island.robots[member];
     if (robot.type->nv == 0) return true;
-    const roboss::Body& body = robot.type->bodies[0];
-    return robot.state->wrenches.empty() && body.gravity_mass == body.mass;
+    const auto is_pulled = [](const roboss::Body& body) { return body.gravity_mass != body.mass; };
+    return robot.type->free_base && robot.state->wrenches.empty() &&
+           std::ranges::none_of(robot.type->bodies, is_pulled);
 }
 
 }  // namespace
@@ -34,6 +35,8 @@ bool Guard::start(const Island& island, RobotWork& buffer) {
     const BodySums before = sum_robots(island.model, island.robots, island.members, origin_, buffer);
     if (!(before.inertia.mass > 0)) return false;
     momentum_ = own_momentum(before), energy_ = before.energy();
+    guards_energy_ = std::ranges::all_of(
+        island.members, [&](std::uint32_t m) { return island.robots[m].type->dofs.empty(); });
     return true;
 }
 
@@ -43,6 +46,7 @@ void Guard::finish(const Island& island, RobotWork& buffer) const {
     };
     const BodySums after = sums();
     add_momentum(island.robots, island.members, after, {momentum_ - own_momentum(after), {}}, origin_);
+    if (!guards_energy_) return;
     const BodySums now = sums();
     const Slowdown slowdown = slowdown_to(energy_ - now.potential, now, false);
     for (const std::uint32_t m : island.members)

@@ -17,8 +17,9 @@ class Guard {
 
   private:
     Vec3 origin_;
-    Vec3 momentum_;      // N m s, about the common centre of mass
-    double energy_ = 0;  // J
+    Vec3 momentum_;               // N m s, about the common centre of mass
+    double energy_ = 0;           // J
+    bool guards_energy_ = false;  // where there are joints, IslandGuard does
 };
 
 }  // namespace roboss::soft

@@ -27,8 +27,9 @@ class Kernel {
                      const Substep& substep) const = 0;
 };
 
-/// The best that this processor can run.
-const Kernel& kernel();
+/// The best that this processor has for batches of so many patches: wider registers help where they are
+/// filled.
+const Kernel& kernel(int patches);
 
 // One for each instruction set; nullptr if it was built without.
 std::unique_ptr<Kernel> make_any_kernel();

@@ -29,23 +29,6 @@ Substep substep_of(double dt) {
     return {h, 0, softness(hertz, kDamping, h), softness(2 * hertz, kDamping / 2, h)};
 }
 
-/// One side of a pair.
-struct Side {
-    const Body* body = nullptr;  // nullptr: it does not move
-    Vec3 point;                  // where impulses push it, world axes
-};
-
-struct Sides {
-    Side a, b;
-
-    Vec3 turn_a(const Vec3& direction) const {
-        return a.body->turned_by(cross(a.point - a.body->centre, direction));
-    }
-    Vec3 turn_b(const Vec3& direction) const {
-        return b.body == nullptr ? Vec3{} : b.body->turned_by(cross(b.point - b.body->centre, -direction));
-    }
-};
-
 /// Where the friction of a patch acts: the middle of its points, those that are apart less.
 Vec3 middle_of(const Island& island, const Pair& pair) {
     constexpr double kApart = 2e-3;  // m, that counts for nothing
@@ -59,21 +42,17 @@ Vec3 middle_of(const Island& island, const Pair& pair) {
     return sum / weight;
 }
 
-void put(const Vec3& v, std::size_t lane, Eight* to) {
-    to[0].x[lane] = v.x, to[1].x[lane] = v.y, to[2].x[lane] = v.z;
-}
-
-/// m/s: slower blows do not bounce. At least the speed that gravity gives in two ticks.
-double least_blow(const Model& model, const SurfacePair& surface) {
-    return std::max(surface.bounce_threshold, contact::kTouchTicks * norm(model.gravity) * model.dt_s);
-}
-
 }  // namespace
 
 bool can_solve(const Model& model, std::span<const RobotWork> robots,
                std::span<const std::uint32_t> members) {
-    return members.size() > 1 && is_fast(model.accuracy) &&
-           std::ranges::all_of(members, [&](std::uint32_t m) { return may_be_soft(*robots[m].type); });
+    constexpr double kMostTurn = 0.5;  // rad of a link in a tick: rows do not hold for more
+    const auto can_take = [&](std::uint32_t m) {
+        const RobotType& type = *robots[m].type;
+        return may_be_soft(type) || (may_be_tree(type) && fastest_turn(robots[m]) * model.dt_s * model.dt_s <
+                                                              kMostTurn * kMostTurn);
+    };
+    return members.size() > 1 && is_fast(model.accuracy) && std::ranges::all_of(members, can_take);
 }
 
 bool are_of_one_patch(const Contact& a, const Contact& b) {
@@ -82,230 +61,181 @@ bool are_of_one_patch(const Contact& a, const Contact& b) {
 
 bool can_solve(const Model& model, const Contact& contact, const SurfacePair& surface) {
     if (contact.robot_b < 0 && model.statics[contact.shape_b].shape.kind == ShapeKind::kSurface) return false;
-    return contact.robot_a != contact.robot_b && surface.rolling == 0 && surface.softness.stiffness == 0 &&
-           surface.slip_11 == 0 && surface.slip_12 == 0 && surface.slip_22 == 0;
+    return surface.rolling == 0 && surface.softness.stiffness == 0 && surface.slip_11 == 0 &&
+           surface.slip_12 == 0 && surface.slip_22 == 0;
 }
 
 bool Solver::take(const Island& island) {
     bodies_.clear();
-    body_of_.resize(island.robots.size());
+    slots_.resize(island.robots.size());
     for (const std::uint32_t m : island.members) {
-        body_of_[m] = -1;
-        if (island.robots[m].type->nv == 0) continue;
-        body_of_[m] = static_cast<int>(bodies_.size());
+        slots_[m] = -1;
+        const RobotType& type = *island.robots[m].type;
+        if (type.nv == 0 || !type.dofs.empty()) continue;
+        slots_[m] = static_cast<int>(bodies_.size());
         if (!take_body(island.robots[m], bodies_.emplace_back())) return false;
     }
     substep_ = substep_of(island.model.dt_s);
-    list_pairs(island);
-    batches_.arrange(bodies_.size(), pairs_, problem_);
+    return take_trees(island);
+}
+
+bool Solver::take_trees(const Island& island) {
+    trees_.clear(), tree_of_.clear(), joints_.clear();
+    std::size_t count = 0;
+    for (const std::uint32_t m : island.members) {
+        RobotWork& robot = island.robots[m];
+        if (robot.type->dofs.empty()) continue;
+        Tree& tree = trees_.emplace_back();
+        tree.robot = &robot, tree.M = robot.mass_matrix.data();
+        tree.slot = bodies_.size() + tree_of_.size();
+        slots_[m] = static_cast<int>(tree.slot);
+        tree_of_.resize(tree_of_.size() + motions_of(tree.nv()), trees_.size() - 1);
+        count += tree.nv();
+    }
+    roots_.resize(count);
+    std::size_t first = 0, row = 0;
+    for (Tree& tree : trees_) {
+        const std::span<double> root = std::span(roots_).subspan(first, tree.nv());
+        if (!factor_tree(*tree.robot, root)) return false;
+        tree.root = root, first += tree.nv();
+        const int begin = island.offsets[static_cast<std::size_t>(tree.robot - island.robots.data())];
+        std::size_t end = row;
+        while (end < island.joints.size() && island.joints[end].dof < begin + tree.robot->type->nv) ++end;
+        joints_.add(island.model, tree, island.joints.subspan(row, end - row), begin);
+        row = end;
+    }
     return true;
+}
+
+void Solver::take_contacts(const Island& island) {
+    bounces_ = std::ranges::any_of(island.surfaces, [](const SurfacePair& s) { return s.restitution > 0; });
+    constexpr double kDeep = 5e-3;  // m
+    deep_ = std::ranges::any_of(island.contacts, [](const Contact* c) { return c->gap < -kDeep; });
+    list_pairs(island);
+    batches_.arrange(bodies_.size() + tree_of_.size(), pairs_, problem_);
+}
+
+/// -1: the side of the contact does not move by itself.
+int Solver::slot_of(int robot, int body) const {
+    return robot < 0 || body < 0 ? -1 : slots_[static_cast<std::size_t>(robot)];
 }
 
 /// Contacts of one pair of shapes with one normal, at most eight, are a pair.
 void Solver::list_pairs(const Island& island) {
-    pairs_.clear();
+    pairs_.clear(), jointed_.clear();
+    const auto is_tree = [&](int slot) { return slot >= static_cast<int>(bodies_.size()); };
     for (std::uint32_t first = 0, last = 0; first < island.contacts.size(); first = last) {
         const Contact& c = *island.contacts[first];
         while (last < island.contacts.size() && last < first + 8 &&
                are_of_one_patch(c, *island.contacts[last]))
             ++last;
-        Pair pair{body_of_[static_cast<std::size_t>(c.robot_a)], -1, first, last - first, false, {}};
-        if (c.robot_b >= 0) pair.b = body_of_[static_cast<std::size_t>(c.robot_b)];
+        Pair pair;
+        pair.first = first, pair.points = last - first;
+        pair.a = slot_of(c.robot_a, c.body_a), pair.b = slot_of(c.robot_b, c.body_b);
+        pair.itself = c.robot_a == c.robot_b;
+        if (pair.itself) pair.a = std::max(pair.a, pair.b), pair.b = -1;
         if (pair.a < 0) std::swap(pair.a, pair.b), pair.swapped = true;
         if (pair.a < 0) continue;
         pair.middle = middle_of(island, pair);
+        pair.jointed = is_tree(pair.a) || is_tree(pair.b);
+        if (pair.jointed) {
+            const JointedPair& sides = jointed_.emplace_back(jointed_pair(island, pair));
+            pair.sides = static_cast<std::uint32_t>(jointed_.size() - 1);
+            pair.further_a = sides.a.path.further(), pair.further_b = sides.b.path.further();
+        }
         pairs_.push_back(pair);
     }
 }
 
-namespace {
-
-Sides sides_of(const std::vector<Body>& bodies, const Pair& pair, const Vec3& p, const Vec3& shift_b) {
-    Sides sides;
-    sides.a = {&bodies[static_cast<std::size_t>(pair.a)], pair.swapped ? p + shift_b : p};
-    if (pair.b >= 0) sides.b = {&bodies[static_cast<std::size_t>(pair.b)], p + shift_b};
-    return sides;
-}
-
-/// The contacts of the pair's shapes that the last tick knew.
-std::span<const ContactMemory> memory_of(const Island& island, const Pair& pair) {
-    const Contact& c = *island.contacts[pair.first];
-    const RobotWork& a = island.robots[static_cast<std::size_t>(c.robot_a)];
-    const auto key = [](const ContactMemory& m) { return std::tuple(m.other_robot, m.shape, m.other_shape); };
-    const std::vector<ContactMemory>& all = a.state->contacts;
-    const std::tuple wanted(other_id(island.robots, c), c.shape_a, c.shape_b);
-    const auto first = std::ranges::lower_bound(all, wanted, {}, key),
-               last = std::ranges::upper_bound(first, all.end(), wanted, {}, key);
-    return {first, last};
-}
-
-/// A pair starts from the impulses that the last tick ended with. Where the points of two shapes have other
-/// names than then, since another of two like faces is taken for the first one, those that are new share the
-/// load of those that are gone.
-Start start_of(const Island& island, const Pair& pair) {
-    double load = 0, impulse = 0, known = 0;
-    Vec3 friction, kept;
-    for (const ContactMemory& m : memory_of(island, pair))
-        load += m.load, impulse += m.impulse, friction += m.friction;
-    const ShapePair shapes = pair_of(*island.contacts[pair.first]);
-    std::size_t first = pair.first, last = pair.first;  // of all pairs of these shapes
-    while (first > 0 && pair_of(*island.contacts[first - 1]) == shapes) --first;
-    while (last < island.contacts.size() && pair_of(*island.contacts[last]) == shapes) ++last;
-    int fresh = 0, fresh_here = 0;
-    for (std::size_t k = first; k < last; ++k) {
-        const Contact& c = *island.contacts[k];
-        known += c.load, kept += c.friction;
-        if (c.impulse > 0) continue;
-        ++fresh;
-        if (k >= pair.first && k < pair.first + pair.points) ++fresh_here;
-    }
-    Start start;
-    start.steady = impulse > 0 ? load / impulse : 0;
-    if (fresh == 0 || load <= known) return start;
-    start.fresh_load = (load - known) / fresh;
-    start.lost = (friction - kept) * (start.steady * fresh_here / fresh);
-    return start;
-}
-
-}  // namespace
-
-void Solver::fill_batch(const Island& island, std::size_t batch) {
-    const Batch& b = problem_.batches[batch];
-    problem_.patches[batch] = {};
-    std::fill_n(problem_.points.begin() + static_cast<std::ptrdiff_t>(b.first), b.points, Point{});
-    for (std::size_t lane = 0; lane < static_cast<std::size_t>(b.patches); ++lane) {
-        const Pair& pair = pair_at(batch, lane);
-        const Start start = start_of(island, pair);
-        fill(island, pair, start, lane, b, problem_.patches[batch]);
-        fill_friction(island, pair, start, lane, b, problem_.patches[batch]);
-    }
-}
-
-/// The rows of the normals.
-void Solver::fill(const Island& island, const Pair& pair, const Start& start, std::size_t lane,
-                  const Batch& batch, Patch& patch) {
-    const double way = pair.swapped ? -1 : 1, least = least_blow(island.model, island.surfaces[pair.first]);
-    const Vec3 n = island.contacts[pair.first]->normal * way;
-    const Body& a = bodies_[static_cast<std::size_t>(pair.a)];
-    const double inverse_mass_b = pair.b < 0 ? 0 : bodies_[static_cast<std::size_t>(pair.b)].inverse_mass;
-    put(n, lane, patch.n);
-    patch.inverse_mass_a.x[lane] = a.inverse_mass, patch.inverse_mass_b.x[lane] = inverse_mass_b;
-    patch.coefficient.x[lane] = island.surfaces[pair.first].friction.mu;
-    patch.recovery.x[lane] = island.surfaces[pair.first].correction_speed;
-    for (std::uint32_t k = 0; k < pair.points; ++k) {
-        const Contact& c = *island.contacts[pair.first + k];
-        const SurfacePair& surface = island.surfaces[pair.first + k];
-        const Sides sides = sides_of(bodies_, pair, c.p_W, c.shift_b);
-        const Vec3 turn_a = sides.turn_a(n), turn_b = sides.turn_b(n);
-        Point& point = problem_.points[batch.first + k];
-        put(turn_a, lane, point.turn_a), put(turn_b, lane, point.turn_b);
-        const double speed = dot(n, surface.velocity) * way;
-        double approach = -(dot(n, a.linear) + dot(turn_a, a.whitened(a.angular)) + speed);
-        if (pair.b >= 0) {
-            const Body& b = bodies_[static_cast<std::size_t>(pair.b)];
-            approach += dot(n, b.linear) - dot(turn_b, b.whitened(b.angular));
-        }
-        point.gap.x[lane] = c.gap < 0 ? std::min(c.gap + surface.slop, 0.0) : c.gap;
-        point.speed.x[lane] = speed;
-        point.mass.x[lane] =
-            1 / ((a.inverse_mass + inverse_mass_b) + (norm_squared(turn_a) + norm_squared(turn_b)));
-        if (surface.restitution > 0 && approach > least)
-            point.bounce.x[lane] = surface.restitution * approach;
-        point.impulse.x[lane] = (c.impulse > 0 ? c.load : start.fresh_load) / kSubsteps;
-    }
-}
-
-void Solver::fill_friction(const Island& island, const Pair& pair, const Start& start, std::size_t lane,
-                           const Batch& batch, Patch& patch) {
-    const double way = pair.swapped ? -1 : 1;
-    const Contact& first = *island.contacts[pair.first];
-    const SurfacePair& surface = island.surfaces[pair.first];
-    const ContactFrame frame = frame_of(first.normal * way, surface.friction);
-    const Vec3& middle = pair.middle;
-    const Sides sides = sides_of(bodies_, pair, middle, first.shift_b);
-    Vec3 friction = start.lost * way, speed = surface.velocity;
-    double twist = 0;
-    for (std::uint32_t k = 0; k < pair.points; ++k) {
-        const Contact& c = *island.contacts[pair.first + k];
-        const Vec3 arm = c.p_W - middle, kept = c.friction * (start.steady * way);
-        problem_.points[batch.first + k].lever.x[lane] =
-            surface.friction.mu * norm(arm) + island.surfaces[pair.first + k].torsional;
-        friction += kept, twist += dot(frame.n, cross(arm, kept));
-    }
-    const Vec3 a_1 = sides.turn_a(frame.t1), b_1 = sides.turn_b(frame.t1), a_2 = sides.turn_a(frame.t2),
-               b_2 = sides.turn_b(frame.t2), a_w = sides.a.body->turned_by(frame.n),
-               b_w = sides.b.body == nullptr ? Vec3{} : sides.b.body->turned_by(-frame.n);
-    const double inverse_mass = patch.inverse_mass_a.x[lane] + patch.inverse_mass_b.x[lane];
-    const double across2 = norm_squared(frame.t2), k_11 = (dot(a_1, a_1) + dot(b_1, b_1)) + inverse_mass,
-                 k_12 = dot(a_1, a_2) + dot(b_1, b_2),
-                 k_22 = (dot(a_2, a_2) + dot(b_2, b_2)) + inverse_mass * across2;
-    put(frame.t1, lane, patch.t1), put(frame.t2, lane, patch.t2);
-    put(a_1, lane, patch.slide_1a), put(b_1, lane, patch.slide_1b);
-    put(a_2, lane, patch.slide_2a), put(b_2, lane, patch.slide_2b);
-    put(a_w, lane, patch.twist_a), put(b_w, lane, patch.twist_b);
-    const double det = k_11 * k_22 - k_12 * k_12;
-    if (across2 > 0 && det > 0) {
-        patch.mass_11.x[lane] = k_22 / det, patch.mass_12.x[lane] = -k_12 / det;
-        patch.mass_22.x[lane] = k_11 / det;
-        patch.slide_2.x[lane] = dot(frame.t2, friction) / (across2 * kSubsteps);
-    } else {
-        patch.mass_11.x[lane] = 1 / k_11;
-    }
-    patch.mass_twist.x[lane] = 1 / (norm_squared(a_w) + norm_squared(b_w));
-    patch.speed_1.x[lane] = dot(frame.t1, speed) * way, patch.speed_2.x[lane] = dot(frame.t2, speed) * way;
-    patch.speed_twist.x[lane] = dot(frame.n, surface.turning) * way;
-    patch.slide_1.x[lane] = dot(frame.t1, friction) / kSubsteps, patch.twist.x[lane] = twist / kSubsteps;
-}
-
-/// Batches of a colour side by side, colour after colour.
+/// Batches of a colour side by side, colour after colour; then the joints of each robot.
 void Solver::run(Pass pass, const Team& team) {
-    constexpr std::size_t kBlock = 4;  // batches
+    constexpr std::size_t kBlock = 4, kTrees = 16;
     for (std::size_t c = 0; c + 1 < problem_.colours.size(); ++c) {
         const std::size_t begin = problem_.colours[c], count = problem_.colours[c + 1] - begin;
         team.run_blocks(count, kBlock, [&](std::size_t first, std::size_t last) {
-            kernel().run(problem_, begin + first, begin + last, pass, substep_);
+            for (std::size_t b = begin + first, next = b; b < begin + last; b = next) {
+                const int patches = problem_.batches[b].patches;
+                while (next < begin + last && problem_.batches[next].patches == patches) ++next;
+                kernel(patches).run(problem_, b, next, pass, substep_);
+            }
         });
     }
+    if (pass == Pass::kBounce) return;
+    team.run_blocks(trees_.size(), kTrees, [&](std::size_t first, std::size_t last) {
+        for (std::size_t t = first; t < last; ++t) {
+            double* velocity = problem_.velocity[trees_[t].slot].x;
+            if (pass == Pass::kWarm)
+                joints_.warm(t, velocity);
+            else
+                joints_.solve(t, substep_, pass == Pass::kPush, problem_.displacement[trees_[t].slot].x,
+                              velocity);
+        }
+    });
 }
 
-void Solver::solve(const Island& island, const Team& team) {
-    constexpr std::size_t kBlock = 64, kBatches = 8;
-    const std::size_t count = bodies_.size();
+/// Velocities before the tick, and what changes them besides contacts and the rows of joints: in each substep
+/// its share.
+void Solver::start_tree(const Tree& tree) {
+    double* now = problem_.velocity[tree.slot].x;
+    double* kick = problem_.kick[tree.slot].x;
+    whiten_velocity(tree, tree.robot->state->v, now);
+    whiten_impulse(tree, tree.robot->impulse, kick);
+    double* free = problem_.free[tree.slot].x;
+    for (std::size_t i = 0; i < tree.nv(); ++i) {
+        kick[i] = (kick[i] - now[i]) / kSubsteps;
+        free[i] = now[i] = now[i] + kick[i];
+    }
+    for (std::size_t i = tree.nv(); i < 8 * motions_of(tree.nv()); ++i) free[i] = now[i] = kick[i] = 0;
+}
+
+void Solver::start(const Island& island, const Team& team) {
+    constexpr std::size_t kBlock = 64, kTrees = 16, kBatches = 8;
     Problem& p = problem_;
+    const std::size_t count = bodies_.size() + tree_of_.size();
     p.velocity.resize(count + 1), p.displacement.assign(count + 1, {}), p.kick.resize(count),
         p.free.resize(count);
     p.velocity[count] = {};
-    const auto for_bodies = [&](const auto& act) {
-        team.run_blocks(count, kBlock, [&](std::size_t first, std::size_t last) {
-            for (std::size_t b = first; b < last; ++b) act(b);
-        });
-    };
-    for_bodies([&](std::size_t b) {
-        p.kick[b] = kick_of(island.model, bodies_[b], substep_.h);
-        const Motion now = velocity_of(bodies_[b]);
-        for (std::size_t i = 0; i < 8; ++i) p.free[b].x[i] = p.velocity[b].x[i] = now.x[i] + p.kick[b].x[i];
+    team.run_blocks(bodies_.size(), kBlock, [&](std::size_t first, std::size_t last) {
+        for (std::size_t b = first; b < last; ++b) {
+            p.kick[b] = kick_of(island.model, bodies_[b], substep_.h);
+            const Motion now = velocity_of(bodies_[b]);
+            for (std::size_t i = 0; i < 8; ++i)
+                p.free[b].x[i] = p.velocity[b].x[i] = now.x[i] + p.kick[b].x[i];
+        }
+    });
+    team.run_blocks(trees_.size(), kTrees, [&](std::size_t first, std::size_t last) {
+        for (std::size_t t = first; t < last; ++t) start_tree(trees_[t]);
     });
     team.run_blocks(p.batches.size(), kBatches, [&](std::size_t first, std::size_t last) {
         for (std::size_t b = first; b < last; ++b) fill_batch(island, b);
     });
+}
+
+void Solver::solve(const Island& island, const Team& team) {
+    constexpr std::size_t kBlock = 64;
+    Problem& p = problem_;
+    start(island, team);
+    const auto for_motions = [&](const auto& act) {
+        team.run_blocks(p.kick.size(), kBlock, [&](std::size_t first, std::size_t last) {
+            for (std::size_t b = first; b < last; ++b)
+                for (std::size_t i = 0; i < 8; ++i) act(b, i);
+        });
+    };
     run(Pass::kWarm, team);
     for (int k = 0; k < kSubsteps; ++k) {
         substep_.elapsed = k * substep_.h;
         run(Pass::kPush, team);
-        for_bodies([&](std::size_t b) {
-            for (std::size_t i = 0; i < 8; ++i) p.displacement[b].x[i] += substep_.h * p.velocity[b].x[i];
-        });
+        for_motions(
+            [&](std::size_t b, std::size_t i) { p.displacement[b].x[i] += substep_.h * p.velocity[b].x[i]; });
         substep_.elapsed = (k + 1) * substep_.h;
         run(Pass::kRelax, team);
         if (k + 1 == kSubsteps) break;
-        for_bodies([&](std::size_t b) {  // the impulses act in the next substep again
-            for (std::size_t i = 0; i < 8; ++i) {
-                const double now = p.velocity[b].x[i], again = now - p.free[b].x[i];
-                p.free[b].x[i] = now + p.kick[b].x[i], p.velocity[b].x[i] = p.free[b].x[i] + again;
-            }
+        for_motions([&](std::size_t b, std::size_t i) {  // the impulses act in the next substep again
+            const double now = p.velocity[b].x[i], again = now - p.free[b].x[i];
+            p.free[b].x[i] = now + p.kick[b].x[i], p.velocity[b].x[i] = p.free[b].x[i] + again;
         });
     }
-    run(Pass::kBounce, team);
+    if (bounces_) run(Pass::kBounce, team);
 }
 
 /// The impulses of a patch, and its friction shared among the points: by their impulses, and about their
@@ -343,22 +273,43 @@ void Solver::give(const Island& island, const Pair& pair, std::size_t lane, cons
     }
 }
 
-/// True if no contact has changed the body's motion: the same sums without them have the same bits.
-bool Solver::flies(std::size_t b) const {
-    const Motion start = velocity_of(bodies_[b]);
-    const Motion &kick = problem_.kick[b], &velocity = problem_.velocity[b],
-                 &moved = problem_.displacement[b];
-    for (std::size_t i = 0; i < 6; ++i) {
-        double v = start.x[i] + kick.x[i], d = substep_.h * v;
-        for (int k = 1; k < kSubsteps; ++k) v += kick.x[i], d += substep_.h * v;
-        if (v != velocity.x[i] || d != moved.x[i]) return false;
+/// True if nothing has changed the motion besides the kicks: the same sums without the rest have the same
+/// bits.
+bool Solver::flies(std::span<const double> start, std::size_t slot) const {
+    const double *kick = problem_.kick[slot].x, *velocity = problem_.velocity[slot].x,
+                 *moved = problem_.displacement[slot].x;
+    for (std::size_t i = 0; i < start.size(); ++i) {
+        double v = start[i] + kick[i], d = substep_.h * v;
+        for (int k = 1; k < kSubsteps; ++k) v += kick[i], d += substep_.h * v;
+        if (v != velocity[i] || d != moved[i]) return false;
     }
     return true;
 }
 
-void Solver::mark_pushed() {
+/// Robots whose joints have rows count where a contact ends with an impulse.
+void Solver::mark_pushed(const Island& island) {
     for (std::size_t b = 0; b < bodies_.size(); ++b)
-        if (!flies(b)) bodies_[b].touched = bodies_[b].robot->pushed = true;
+        if (const Motion start = velocity_of(bodies_[b]); !flies(std::span(start.x, 6), b))
+            bodies_[b].touched = bodies_[b].robot->pushed = true;
+    for (std::size_t t = 0; t < trees_.size(); ++t) {
+        if (joints_.has_rows(t)) continue;
+        double start[kMostDofs];
+        whiten_velocity(trees_[t], trees_[t].robot->state->v, start);
+        if (!flies(std::span<const double>(start).first(trees_[t].nv()), trees_[t].slot))
+            trees_[t].robot->pushed = true;
+    }
+    for (std::size_t batch = 0; batch < problem_.batches.size(); ++batch) {
+        const Batch& b = problem_.batches[batch];
+        for (std::size_t lane = 0; b.jointed && lane < static_cast<std::size_t>(b.patches); ++lane) {
+            const Pair& pair = pair_at(batch, lane);
+            const Contact& c = *island.contacts[pair.first];
+            bool pushes = false;
+            for (std::size_t k = 0; k < pair.points; ++k)
+                pushes |= problem_.points[b.first + k].total.x[lane] > 0;
+            for (const int robot : {c.robot_a, c.robot_b})
+                if (pushes && robot >= 0) island.robots[static_cast<std::size_t>(robot)].pushed = true;
+        }
+    }
 }
 
 void Solver::give_impulses(const Island& island) const {
@@ -368,17 +319,56 @@ void Solver::give_impulses(const Island& island) const {
         for (std::size_t lane = 0; lane < static_cast<std::size_t>(b.patches); ++lane)
             give(island, pair_at(batch, lane), lane, b, problem_.patches[batch]);
     }
+    joints_.give(island.joints);
 }
 
 void Solver::give_motion(const Island& island, std::span<const int> offsets, std::span<double> velocity,
                          std::span<double> displacement) const {
-    for (const std::uint32_t m : island.members) {
-        if (body_of_[m] < 0) continue;
-        const auto b = static_cast<std::size_t>(body_of_[m]), first = static_cast<std::size_t>(offsets[m]);
-        put_motion(problem_.velocity[b], bodies_[b], 1, velocity.subspan(first, 6));
-        put_motion(problem_.displacement[b], bodies_[b], 1 / island.model.dt_s,
-                   displacement.subspan(first, 6));
+    const double per_dt = 1 / island.model.dt_s;
+    const auto first = [&](const RobotWork* robot) {
+        return static_cast<std::size_t>(offsets[static_cast<std::size_t>(robot - island.robots.data())]);
+    };
+    for (std::size_t b = 0; b < bodies_.size(); ++b) {
+        const std::size_t at = first(bodies_[b].robot);
+        put_motion(problem_.velocity[b], bodies_[b], 1, velocity.subspan(at, 6));
+        put_motion(problem_.displacement[b], bodies_[b], per_dt, displacement.subspan(at, 6));
     }
+    for (const Tree& tree : trees_) {
+        const std::size_t at = first(tree.robot);
+        put_velocity(tree, problem_.velocity[tree.slot].x, 1, velocity.subspan(at, tree.nv()));
+        put_velocity(tree, problem_.displacement[tree.slot].x, per_dt, displacement.subspan(at, tree.nv()));
+    }
+}
+
+/// Kicks are what momentum changed by, without forces and the rows of joints. What the displacement has
+/// beside the velocity is to be what contacts gave: the drift has forces, which act evenly, and joints by
+/// itself.
+void Solver::prepare_drift(const Island& island, std::span<const char> drifts, std::span<double> kick,
+                           std::span<double> displacement) const {
+    constexpr double kLack = 0.5 * (kSubsteps - 1);  // of the changes in a substep
+    const double per_dt = 1 / island.model.dt_s;
+    std::size_t t = 0;
+    for (std::size_t m = 0; m < island.members.size(); ++m) {
+        const RobotWork& robot = island.robots[island.members[m]];
+        if (robot.type->dofs.empty()) continue;
+        const Tree& tree = trees_[t++];
+        if (!drifts[m]) continue;
+        const double* velocity = problem_.velocity[tree.slot].x;
+        const auto first = static_cast<std::size_t>(island.offsets[island.members[m]]);
+        const std::span<double> own = kick.subspan(first, tree.nv());
+        add_impulse(tree, velocity, own);
+        double extra[kMostDofs], by_extra[kMostDofs];
+        for (std::size_t i = 0; i < own.size(); ++i) {
+            own[i] -= robot.impulse[i];
+            extra[i] = problem_.displacement[tree.slot].x[i] * per_dt - velocity[i] +
+                       problem_.kick[tree.slot].x[i] * kLack;
+        }
+        joints_.take_out(t - 1, extra);
+        put_velocity(tree, extra, 1, std::span(by_extra).first(tree.nv()));
+        put_velocity(tree, velocity, 1, displacement.subspan(first, tree.nv()));
+        for (std::size_t i = 0; i < own.size(); ++i) displacement[first + i] += by_extra[i];
+    }
+    for (const JointRow& row : island.joints) kick[static_cast<std::size_t>(row.dof)] -= row.impulse;
 }
 
 void Solver::move(const Island& island, FreeBuffer& buffer) {

@@ -258,25 +258,40 @@ void fill(Rows& rows, int lanes, Random& random) {
             reinterpret_cast<soft::Eight*>(&rows)[at].x[lane] = random.uniform(0.1, 1);
 }
 
+/// Random rows of robots with joints, whose further coordinates are the last two of their bodies.
+void add_columns(soft::Problem& p, soft::Batch& batch, int further, Random& random) {
+    batch.first_column = p.columns.size();
+    for (soft::Path* path : {&batch.path_a, &batch.path_b}) {
+        path->further = further, path->first = p.places.size();
+        const int* bodies = path == &batch.path_a ? batch.a : batch.b;
+        for (int k = 0; k < further; ++k)
+            for (int lane = 0; lane < 8; ++lane) p.places.push_back(8 * bodies[lane] + 6 + k);
+    }
+    for (std::size_t k = 0; k < (static_cast<std::size_t>(batch.points) + 3) * batch.columns(); ++k)
+        fill(p.columns.emplace_back(), batch.patches, random);
+}
+
 /// Random patches of random bodies.
 soft::Problem random_problem(int bodies, int patches) {
     Random random(2026);
     soft::Problem p;
     p.velocity.resize(static_cast<std::size_t>(bodies) + 1), p.displacement.resize(p.velocity.size());
     for (int b = 0; b < bodies; ++b)
-        for (int i = 0; i < 6; ++i) {
+        for (int i = 0; i < 8; ++i) {
             p.velocity[static_cast<std::size_t>(b)].x[i] = random.uniform(-1, 1);
             p.displacement[static_cast<std::size_t>(b)].x[i] = random.uniform(-1e-3, 1e-3);
         }
     for (int k = 0; k < patches; ++k) {
         soft::Batch batch;
         batch.patches = 1 + k % 8, batch.points = 1 + k % 4, batch.scenery = k % 3 == 2;
-        batch.first = p.points.size();
+        batch.first = p.points.size(), batch.jointed = k % 2 == 1;
         for (int lane = 0; lane < 8; ++lane) {
             const bool used = lane < batch.patches;
-            batch.a[lane] = used ? (16 * k + 2 * lane) % bodies : bodies;
-            batch.b[lane] = used && !batch.scenery ? (16 * k + 2 * lane + 1) % bodies : bodies;
+            const int half = bodies / 2, first = batch.jointed ? half : 0;
+            batch.a[lane] = used ? first + (16 * k + 2 * lane) % half : bodies;
+            batch.b[lane] = used && !batch.scenery ? first + (16 * k + 2 * lane + 1) % half : bodies;
         }
+        if (batch.jointed) add_columns(p, batch, 1 + k / 2 % 2, random);
         p.batches.push_back(batch);
         fill(p.patches.emplace_back(), batch.patches, random);
         for (int point = 0; point < batch.points; ++point) {
@@ -290,7 +305,8 @@ soft::Problem random_problem(int bodies, int patches) {
 
 std::vector<double> bits_of(const soft::Problem& p) {
     std::vector<double> all;
-    for (const soft::Motion& m : p.velocity) all.insert(all.end(), m.x, m.x + 6);
+    for (std::size_t b = 0; b < p.velocity.size(); ++b)  // free bodies do not use the last two numbers
+        all.insert(all.end(), p.velocity[b].x, p.velocity[b].x + (2 * b < p.velocity.size() ? 6 : 8));
     for (const soft::Point& q : p.points) all.insert(all.end(), q.total.x, q.total.x + 8);
     for (const soft::Patch& q : p.patches) all.insert(all.end(), q.total_1.x, q.total_1.x + 8);
     return all;
@@ -328,7 +344,9 @@ TEST(SoftBatches, ColoursShareNoBody) {
     const int bodies = 60;
     for (std::uint32_t k = 0; k < 900; ++k) {
         const int a = random.integer(0, bodies - 2), b = k % 5 == 0 ? -1 : random.integer(a + 1, bodies - 1);
-        pairs.push_back({a, b, k, static_cast<std::uint32_t>(random.integer(1, 8)), false, {}});
+        soft::Pair& pair = pairs.emplace_back();
+        pair.a = a, pair.b = b, pair.first = k,
+        pair.points = static_cast<std::uint32_t>(random.integer(1, 8));
     }
     soft::Problem problem;
     soft::Batches batches;

@@ -224,15 +224,6 @@ void IslandSolver::settle_for_sweeps(Problem p, std::vector<double>& v) {
     take_swept(p, v);
 }
 
-/// The velocities of a pile by sweeps alone.
-void IslandSolver::take_sweeps(const Problem& p, std::vector<double>& v, Report& report) {
-    constexpr int kSweeps = 40;
-    sweeps_.run(p, {.most = kSweeps}, v);
-    take_swept(p, v);
-    set_gradient(p);
-    report.residual = 0;
-}
-
 /// The impulses that the sweeps found, into the rows; torsional and rolling friction get none.
 void IslandSolver::take_swept(const Problem& p, const std::vector<double>& v) {
     IslandRows& rows = p.rows;

@@ -13,7 +13,6 @@ constexpr newton::Plan kCrowdPlan{.halvings = 3, .progress = 0.3};
 
 constexpr std::array kFew{Attempt::kNewton, Attempt::kSweeps, Attempt::kHardened};
 constexpr std::array kMany{Attempt::kSweeps, Attempt::kHardened};
-constexpr std::array kManyFast{Attempt::kSweepsAlone};
 constexpr std::array kFewDisplaced{Attempt::kNewton, Attempt::kHardened};
 constexpr std::array kManyDisplaced{Attempt::kActiveSet, Attempt::kNewton, Attempt::kHardened};
 
@@ -26,7 +25,6 @@ SolvePlan plan_for(const PartFacts& facts) {
         return {facts.robots > 1 ? kCrowdPlan : newton::Plan{}, kFewDisplaced};
     }
     if (!is_pile) return {facts.robots > 1 ? kCrowdPlan : newton::Plan{}, kFew};
-    if (facts.fast && !facts.coupled) return {kPilePlan, kManyFast};
     return {kPilePlan, kMany};
 }
 

@@ -11,11 +11,10 @@ namespace roboss {
 
 /// A way to solve a part. Where one does not end in a balance, the next one begins where the first did.
 enum class Attempt : char {
-    kNewton,       // Newton's method, from what every contact did in the last tick
-    kSweeps,       // at rest Newton's method; else sweeps, and Newton's method from where they end
-    kHardened,     // Newton's method on rows that are soft at first
-    kSweepsAlone,  // a fixed number of sweeps
-    kActiveSet     // of a displacement: rounds that find which rows push
+    kNewton,    // Newton's method, from what every contact did in the last tick
+    kSweeps,    // at rest Newton's method; else sweeps, and Newton's method from where they end
+    kHardened,  // Newton's method on rows that are soft at first
+    kActiveSet  // of a displacement: rounds that find which rows push
 };
 
 /// What the choice depends on.
@@ -23,9 +22,7 @@ struct PartFacts {
     std::size_t robots = 1;
     bool touches = false;       // it has contacts
     bool driven = false;        // it has motors
-    bool coupled = false;       // it has gears, mimic joints, loops or bonds
     bool displacement = false;  // solved is the displacement of the tick, not the velocity
-    bool fast = false;          // `--accuracy fast`
 };
 
 struct SolvePlan {

@@ -21,7 +21,6 @@ TEST(SolvePlan, AFewRobotsAreSolvedByNewtonsMethodThenFromSweeps) {
     EXPECT_EQ(attempts({.robots = 3, .touches = true}), few);
     EXPECT_EQ(attempts({.robots = 8, .touches = true, .driven = true}), few);
     EXPECT_EQ(attempts({.robots = 100}), few) << "bonds alone are no pile";
-    EXPECT_EQ(attempts({.robots = 3, .touches = true, .fast = true}), few);
 }
 
 TEST(SolvePlan, APileBeginsWithSweeps) {
@@ -30,18 +29,11 @@ TEST(SolvePlan, APileBeginsWithSweeps) {
     EXPECT_EQ(attempts({.robots = 9, .touches = true, .driven = true}), pile);
 }
 
-TEST(SolvePlan, FastLeavesAPileToSweepsAloneUnlessItHasGearsOrLoops) {
-    EXPECT_EQ(attempts({.robots = 4, .touches = true, .fast = true}), Attempts{Attempt::kSweepsAlone});
-    EXPECT_EQ(attempts({.robots = 4, .touches = true, .coupled = true, .fast = true}).front(),
-              Attempt::kSweeps);
-}
-
 TEST(SolvePlan, DisplacementsOfAPileBeginWithTheRowsThatPushedLast) {
     const Attempts pile{Attempt::kActiveSet, Attempt::kNewton, Attempt::kHardened},
         few{Attempt::kNewton, Attempt::kHardened};
     EXPECT_EQ(attempts({.robots = 3, .touches = true, .displacement = true}), few);
     EXPECT_EQ(attempts({.robots = 4, .touches = true, .displacement = true}), pile);
-    EXPECT_EQ(attempts({.robots = 4, .touches = true, .displacement = true, .fast = true}), pile);
 }
 
 TEST(SolvePlan, CoupledStepsAreShortenedWhereRobotsLeanOnEachOther) {

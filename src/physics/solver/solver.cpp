@@ -3,7 +3,6 @@
 
 #include <algorithm>
 
-#include "physics/solver/fast_accuracy.h"
 #include "physics/solver/solve_plan.h"
 
 namespace roboss {
@@ -11,12 +10,8 @@ namespace {
 
 PartFacts facts_of(const IslandSolver::Problem& p) {
     const auto is_motor = [](const JointRow& row) { return row.motor != nullptr; };
-    return {p.robots.size(),
-            !p.rows.contacts.empty(),
-            std::ranges::any_of(p.rows.joints, is_motor),
-            !p.rows.couplings.empty(),
-            p.position,
-            is_fast(p.accuracy)};
+    return {p.robots.size(), !p.rows.contacts.empty(), std::ranges::any_of(p.rows.joints, is_motor),
+            p.position};
 }
 
 }  // namespace
@@ -38,8 +33,6 @@ std::optional<SolveMethod> IslandSolver::attempt(Attempt attempt, const Problem&
         case Attempt::kHardened:
             plan_ = newton_;
             return where(harden(p, v, report), SolveMethod::kHardened);
-        case Attempt::kSweepsAlone:
-            return take_sweeps(p, v, report), SolveMethod::kSweeps;
         case Attempt::kActiveSet:
             return where(displace(p, v, report), SolveMethod::kActiveSet);
     }

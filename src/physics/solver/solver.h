@@ -56,7 +56,6 @@ class IslandSolver : Newton<double, Hessian> {
     void soften(IslandRows& rows, double softer);
     bool harden(const Problem& p, std::vector<double>& v, Report& report);
     void settle_for_sweeps(Problem p, std::vector<double>& v);
-    void take_sweeps(const Problem& p, std::vector<double>& v, Report& report);
     void take_swept(const Problem& p, const std::vector<double>& v);
 
     newton::Plan newton_;  // of Attempt::kNewton
