@@ -42,7 +42,9 @@ bool pushes(const IslandScratch& s, std::size_t c) {
 /// Marks the robots that another robot or scenery pushes, by the impulses of the last solution, and notes
 /// whether the island is anchored: pushed by something that does not move freely.
 void mark_touched(std::span<const RobotWork> robots, IslandScratch& s) {
-    for (std::size_t c = 0; c < s.contacts.size(); ++c) {
+    // Of the exact solver, hits that were found last may have no rows.
+    const std::size_t solved = s.rows.contacts.empty() ? s.contacts.size() : s.rows.contacts.size();
+    for (std::size_t c = 0; c < solved; ++c) {
         const Contact& contact = *s.contacts[c];
         if (!pushes(s, c) || contact.robot_a == contact.robot_b) continue;
         s.anchored |= touches_fixed(robots, contact);
