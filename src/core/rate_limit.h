@@ -1,4 +1,4 @@
-// RateLimit: how often something may happen: so many times a second, and more for a moment.
+// RateLimit: a token bucket, which allows a number of events a second, and a burst after a pause.
 #pragma once
 
 #include <algorithm>

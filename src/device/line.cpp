@@ -14,7 +14,7 @@ namespace {
 namespace asio = boost::asio;
 using boost::system::error_code;
 
-constexpr std::size_t kMostWaiting = 64;    // writes: more, and nobody takes them
+constexpr std::size_t kMostWaiting = 64;    // writes; with more, the device does not read
 constexpr std::size_t kMostAtOnce = 1'000;  // pieces that are read before they are taken
 
 Error broken(const std::string& address, const error_code& why) {

@@ -1,4 +1,5 @@
-// Who may use the gateway: hosts, origins, tokens. Pure, so that it can be tested without a network.
+// The rules for who may use the gateway: hosts, origins, tokens. Pure, so that it can be tested without a
+// network.
 #pragma once
 
 #include <cstdint>

@@ -119,7 +119,7 @@ class ControllersReader {
 
     Result<> set_type(const YAML::Node& type, ControllerEntry& entry) {
         const std::string& name = type.Scalar();
-        if (name.ends_with("Broadcaster")) return Ok{};  // what it tells is told anyhow
+        if (name.ends_with("Broadcaster")) return Ok{};  // its topics are there without it
         for (const KnownType& known : kTypes) {
             if (name != known.type) continue;
             entry.kind = known.kind;

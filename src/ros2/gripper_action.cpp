@@ -58,8 +58,8 @@ ParallelGripperCommand::Result result_of(const ParallelGripperCommand&, const Fi
                                          const Seen& seen) {
     return {message_of(finger, seen), seen.stalled, seen.reached};
 }
-GripperCommand::Feedback feedback_of(const GripperCommand&, const Finger&, const Seen& seen) {
-    return {{seen.position, seen.effort, seen.stalled, seen.reached}};
+GripperCommand::Feedback feedback_of(const GripperCommand& action, const Finger& finger, const Seen& seen) {
+    return {result_of(action, finger, seen)};
 }
 ParallelGripperCommand::Feedback feedback_of(const ParallelGripperCommand&, const Finger& finger,
                                              const Seen& seen) {
@@ -73,7 +73,7 @@ class GripperExecution {
     GripperExecution(const Finger& finger, const Target& target, Tick begin)
         : finger_(finger), target_(target), moved_(begin) {}
 
-    /// The motor keeps its setpoint, also when the goal has ended: a gripper goes on pressing.
+    /// The motor keeps its setpoint, also when the goal has ended: a gripper keeps pressing.
     Result<> begin(RunControl& run) const { return send(run, target_.position, target_.max_effort); }
     typename A::Feedback feedback(const RunControl&) const { return feedback_of(A{}, finger_, seen_); }
     std::optional<GoalEnd<A>> end(const RunControl& run) {
@@ -87,7 +87,7 @@ class GripperExecution {
                           result_of(A{}, finger_, seen_)};
     }
     void follow(RunControl&, Tick) const {}
-    /// What has stalled goes on pressing; all others stay where they are.
+    /// A finger that has stalled keeps pressing; others stay where they are.
     void hold(RunControl& run) const {
         if (!seen_.stalled) (void)send(run, seen_.position, -1);  // the run reports a refusal
     }

@@ -22,7 +22,7 @@ class RobotAction {
     virtual ~RobotAction() = default;
     /// Serves a call, or takes a message. False: it is not for this action.
     virtual bool take(const Incoming& call) = 0;
-    /// Goes on with the goal. Called after each observation; orders are given here.
+    /// Continues the goal. Called after each observation; orders are given here.
     virtual void advance(std::int64_t now_ms) = 0;
     /// Goals that were refused and why, since the last call.
     virtual std::vector<std::string> take_notices() = 0;

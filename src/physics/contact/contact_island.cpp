@@ -42,7 +42,7 @@ bool pushes(const IslandScratch& s, std::size_t c) {
 /// Marks the robots that another robot or scenery pushes, by the impulses of the last solution, and notes
 /// whether the island is anchored: pushed by something that does not move freely.
 void mark_touched(std::span<const RobotWork> robots, IslandScratch& s) {
-    // Of the exact solver, hits that were found last may have no rows.
+    // With the exact solver the hits that were found last may have no rows.
     const std::size_t solved = s.rows.contacts.empty() ? s.contacts.size() : s.rows.contacts.size();
     for (std::size_t c = 0; c < solved; ++c) {
         const Contact& contact = *s.contacts[c];
@@ -142,27 +142,42 @@ void finish_island(const Model& model, std::span<RobotWork> robots, IslandScratc
     }
 }
 
+/// Empties the island. The velocities of its robots will be in `v`.
+void start_island(std::size_t robots_of_group, IslandScratch& s, std::vector<double>& v) {
+    s.robots.clear(), s.offsets.clear(), s.rows.clear(), v.clear();
+    s.offsets_of_group.resize(robots_of_group);
+}
+
+/// Adds a robot by its number in the group, and its velocities before the tick to `v`; their first place
+/// there.
+int add_robot(std::uint32_t number, RobotWork& work, IslandScratch& s, std::vector<double>& v) {
+    const int offset = static_cast<int>(v.size());
+    s.offsets_of_group[number] = offset;
+    s.robots.push_back(&work), s.offsets.push_back(offset);
+    v.insert(v.end(), work.state->v.begin(), work.state->v.end());
+    return offset;
+}
+
+/// Adds what drives a robot: its impulse, its mass matrix, the rows of its joints. As gather_island.
+bool add_drives(const Model& model, RobotWork& work, int offset, IslandScratch& s) {
+    compute_impulse(model, model.dt_s, 1.0, work.state->q, work.state->v, work);
+    compute_mass_matrix<double>(*work.type, model.dt_s, work);
+    limit_velocity_forces(model, work, s.free_buffer);
+    return add_joint_rows(model, work, offset, s.buffer, s.rows);
+}
+
 /// Gathers rows and first guess of one contact island; true if the displacement of the tick needs a solution
 /// of its own.
 bool gather_island(const Model& model, std::span<RobotWork> robots, IslandScratch& s,
                    std::span<const std::uint32_t> members, std::span<Contact> contacts) {
-    s.robots.clear(), s.offsets.clear();
-    s.surfaces.clear(), s.rows.clear(), s.v.clear();
-    s.offsets_of_group.resize(robots.size());
+    start_island(robots.size(), s, s.v);
+    s.surfaces.clear();
     s.rows.keeps_places =
         std::ranges::any_of(members, [&](std::uint32_t m) { return !robots[m].type->elimination.empty(); });
     bool split = false;
     for (std::uint32_t m : members) {
-        RobotWork& work = robots[m];
-        const int offset = static_cast<int>(s.v.size());
-        s.offsets_of_group[m] = offset;
-        s.robots.push_back(&work);
-        s.offsets.push_back(offset);
-        compute_impulse(model, model.dt_s, 1.0, work.state->q, work.state->v, work);
-        compute_mass_matrix<double>(*work.type, model.dt_s, work);
-        limit_velocity_forces(model, work, s.free_buffer);
-        split |= add_joint_rows(model, work, offset, s.buffer, s.rows);
-        s.v.insert(s.v.end(), work.state->v.begin(), work.state->v.end());
+        const int offset = add_robot(m, robots[m], s, s.v);
+        split |= add_drives(model, robots[m], offset, s);
     }
     for (std::uint32_t m : members) {
         const std::span<Contact> own = contacts_of(m, contacts);
@@ -370,7 +385,7 @@ void gather_bonds(std::span<const std::uint32_t> members, IslandScratch& s) {
             s.bonds.push_back(*at);
 }
 
-/// What the next tick starts from: what hard motors gave; of an axis without one, what its limits and
+/// Keeps what the next tick starts from: what hard motors gave; of an axis without one, what its limits and
 /// friction bore.
 void remember_joints(const Model& model, const RobotWork& robot, std::span<const JointRow> rows, int offset) {
     const RobotType& type = *robot.type;
@@ -393,21 +408,13 @@ void remember_joints(const Model& model, const RobotWork& robot, std::span<const
 
 /// Robots, their places among the velocities, and what drives those with joints; true if there are any.
 bool ContactIsland::gather_joints() {
-    s_.robots.clear(), s_.offsets.clear(), s_.rows.clear(), s_.v_before.clear();
-    s_.offsets_of_group.resize(robots_.size());
+    start_island(robots_.size(), s_, s_.v_before);
     bool any = false;
     for (const std::uint32_t m : members_) {
-        RobotWork& work = robots_[m];
-        const int offset = static_cast<int>(s_.v_before.size());
-        s_.offsets_of_group[m] = offset;
-        s_.robots.push_back(&work), s_.offsets.push_back(offset);
-        s_.v_before.insert(s_.v_before.end(), work.state->v.begin(), work.state->v.end());
-        if (work.type->dofs.empty()) continue;
+        const int offset = add_robot(m, robots_[m], s_, s_.v_before);
+        if (robots_[m].type->dofs.empty()) continue;
         any = true;
-        compute_impulse(model_, model_.dt_s, 1.0, work.state->q, work.state->v, work);
-        compute_mass_matrix<double>(*work.type, model_.dt_s, work);
-        limit_velocity_forces(model_, work, s_.free_buffer);
-        add_joint_rows(model_, work, offset, s_.buffer, s_.rows);
+        add_drives(model_, robots_[m], offset, s_);
     }
     s_.v.resize(s_.v_before.size()), s_.displacement.resize(s_.v.size());
     return any;

@@ -1,5 +1,5 @@
-// What moves at both sides of the soft solver's patches (lane_soft.h), kWidth patches side by side: free
-// bodies of six coordinates, or robots with joints.
+// The robots and bodies at both sides of the soft solver's patches (lane_soft.h), kWidth patches side by
+// side: free bodies of six coordinates, or robots with joints.
 #pragma once
 
 #include "physics/lanes/lane_six.h"

@@ -36,7 +36,7 @@ double least_blow(const Model& model, const SurfacePair& surface) {
     return std::max(surface.bounce_threshold, contact::kTouchTicks * norm(model.gravity) * model.dt_s);
 }
 
-/// Of free bodies.
+/// The sides of a pair of free bodies.
 Sides sides_of(const std::vector<Body>& bodies, const Pair& pair, const Vec3& p, const Vec3& shift_b) {
     Sides sides;
     sides.a = {&bodies[static_cast<std::size_t>(pair.a)], pair.swapped ? p + shift_b : p};
@@ -134,7 +134,7 @@ void Solver::fill(const Island& island, const Pair& pair, const Start& start, st
     }
 }
 
-/// Of free bodies.
+/// Writes the normal row of a point between free bodies.
 Solver::NormalRow Solver::put_normal(const Pair& pair, const Vec3& n, const Contact& c, std::size_t lane,
                                      Point& point) const {
     const Sides sides = sides_of(bodies_, pair, c.p_W, c.shift_b);
@@ -176,7 +176,7 @@ void Solver::fill_friction(const Island& island, const Pair& pair, const Start& 
     patch.slide_1.x[lane] = dot(frame.t1, friction) / kSubsteps, patch.twist.x[lane] = twist / kSubsteps;
 }
 
-/// Of free bodies.
+/// Writes the friction rows of a patch between free bodies.
 Solver::FrictionRows Solver::put_friction(const Pair& pair, const Contact& first, const ContactFrame& frame,
                                           std::size_t lane, Patch& patch) const {
     const Sides sides = sides_of(bodies_, pair, pair.middle, first.shift_b);

@@ -33,7 +33,7 @@ class Joints {
     /// `offset`.
     void add(const Model& model, const Tree& tree, std::span<const JointRow> joints, int offset);
     bool has_rows(std::size_t tree) const { return first_[tree + 1] > first_[tree]; }
-    /// Of the robot that was added as the `tree`-th, on its coordinates.
+    /// Warm start of the robot that was added as the `tree`-th, on its coordinates.
     void warm(std::size_t tree, double* velocity) const;
     void solve(std::size_t tree, const Substep& substep, bool recovers, const double* displacement,
                double* velocity);

@@ -144,7 +144,7 @@ TEST(SoftJoints, MotorsHoldAndFollowTheirTargets) {
     EXPECT_NEAR(sim.states[0].q[0], x, 1e-5);
 }
 
-/// Robots in a heap hold their legs where they are told.
+/// Robots in a heap hold their legs at their targets.
 TEST(SoftJoints, PositionMotorsHoldInAHeap) {
     Simulation sim(legged_heap("fast", 3, 3));
     const auto target = [](std::size_t robot, std::size_t leg) {

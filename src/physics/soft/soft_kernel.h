@@ -27,7 +27,7 @@ class Kernel {
                      const Substep& substep) const = 0;
 };
 
-/// The best that this processor has for batches of so many patches: wider registers help where they are
+/// The best that this processor has for batches of this size: wider registers help where they are
 /// filled.
 const Kernel& kernel(int patches);
 

@@ -25,7 +25,7 @@ struct Tree {
     std::size_t nv() const { return static_cast<std::size_t>(robot->type->nv); }
 };
 
-/// Motions that hold so many coordinates.
+/// The number of Motions that hold this number of coordinates.
 inline std::size_t motions_of(std::size_t nv) {
     return (nv + 7) / 8;
 }

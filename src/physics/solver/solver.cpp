@@ -17,21 +17,21 @@ PartFacts facts_of(const IslandSolver::Problem& p) {
 }  // namespace
 
 /// The method that solved it; none: it did not.
-std::optional<SolveMethod> IslandSolver::attempt(Attempt attempt, const Problem& p, std::vector<double>& v,
-                                                 Report& report) {
+std::optional<SolveMethod> IslandSolver::attempt(Attempt attempt, const newton::Plan& newton,
+                                                 const Problem& p, std::vector<double>& v, Report& report) {
     Lockstep<double> alone;
     const auto where = [](bool solved, SolveMethod method) {
         return solved ? std::optional(method) : std::nullopt;
     };
     switch (attempt) {
         case Attempt::kNewton:
-            plan_ = newton_;
+            plan_ = newton;
             return where(Newton::solve(p, alone, v, report), SolveMethod::kNewton);
         case Attempt::kSweeps:
             plan_ = kPilePlan;
             return solve_by_sweeps(p, v, report);
         case Attempt::kHardened:
-            plan_ = newton_;
+            plan_ = newton;
             return where(harden(p, v, report), SolveMethod::kHardened);
         case Attempt::kActiveSet:
             return where(displace(p, v, report), SolveMethod::kActiveSet);
@@ -57,13 +57,12 @@ SolveReport IslandSolver::solve(const Problem& p, std::vector<double>& v) {
     constexpr double kUseless = 1e-2;  // of the residual
     const SolvePlan plan = plan_for(facts_of(p));
     Report report;
-    newton_ = plan_ = plan.newton;
     start(p, v);
     keep_beginning(p, v);
     std::optional<SolveMethod> method;
     for (const Attempt next : plan.attempts) {
         if (next != plan.attempts.front()) return_to_beginning(p, v);
-        if ((method = attempt(next, p, v, report))) break;
+        if ((method = attempt(next, plan.newton, p, v, report))) break;
     }
     if (!method || !(report.residual <= kUseless)) {
         method = SolveMethod::kSweptFromRest;

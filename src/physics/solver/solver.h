@@ -43,8 +43,8 @@ class IslandSolver : Newton<double, Hessian> {
   private:
     using Report = SolveReportT<double>;
     enum class Pushing : char { kLow, kBetween, kHigh };  // where a row's impulse is in its bounds
-    std::optional<SolveMethod> attempt(Attempt attempt, const Problem& p, std::vector<double>& v,
-                                       Report& report);
+    std::optional<SolveMethod> attempt(Attempt attempt, const newton::Plan& newton, const Problem& p,
+                                       std::vector<double>& v, Report& report);
     // island_start.cpp
     void keep_beginning(const Problem& p, const std::vector<double>& v);
     void return_to_beginning(const Problem& p, std::vector<double>& v);
@@ -58,7 +58,6 @@ class IslandSolver : Newton<double, Hessian> {
     void settle_for_sweeps(Problem p, std::vector<double>& v);
     void take_swept(const Problem& p, const std::vector<double>& v);
 
-    newton::Plan newton_;  // of Attempt::kNewton
     RowSweeps sweeps_;
     // Where the attempts begin: velocities, and of the last tick friction bounds and normal impulses
     std::vector<double> v_beginning_, start_bounds_, carried_;
