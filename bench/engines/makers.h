@@ -9,6 +9,7 @@ std::unique_ptr<Engine> make_roboss(const World& world, const EngineOptions& opt
 std::unique_ptr<Engine> make_roboss_in_4_lanes(const World& world, const EngineOptions& options);
 std::unique_ptr<Engine> make_roboss_in_1_lane(const World& world, const EngineOptions& options);
 std::unique_ptr<Engine> make_roboss_fast(const World& world, const EngineOptions& options);
+std::unique_ptr<Engine> make_roboss_high(const World& world, const EngineOptions& options);
 std::unique_ptr<Engine> make_roboss_in_floats(const World& world, const EngineOptions& options);
 std::unique_ptr<Engine> make_roboss_in_8_floats(const World& world, const EngineOptions& options);
 std::unique_ptr<Engine> make_mujoco(const World& world, const EngineOptions& options);

@@ -182,6 +182,11 @@ std::unique_ptr<Engine> make(const World& world, const EngineOptions& options, s
     return std::make_unique<RobossEngine>(world, options, *model, lanes);
 }
 
+EngineOptions with_accuracy(EngineOptions options, double accuracy) {
+    options.accuracy = accuracy;
+    return options;
+}
+
 }  // namespace
 
 std::unique_ptr<Engine> make_roboss(const World& world, const EngineOptions& options) {
@@ -197,9 +202,11 @@ std::unique_ptr<Engine> make_roboss_in_1_lane(const World& world, const EngineOp
 }
 
 std::unique_ptr<Engine> make_roboss_fast(const World& world, const EngineOptions& options) {
-    EngineOptions fast = options;
-    fast.accuracy = 0.1;
-    return make(world, fast, 0);
+    return make(world, with_accuracy(options, 0.1), 0);
+}
+
+std::unique_ptr<Engine> make_roboss_high(const World& world, const EngineOptions& options) {
+    return make(world, with_accuracy(options, 10), 0);
 }
 
 std::unique_ptr<Engine> make_roboss_in_floats(const World& world, const EngineOptions& options) {

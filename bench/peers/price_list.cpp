@@ -15,19 +15,8 @@ namespace roboss::bench {
 namespace {
 
 /// RoBOSS by setting, standard first: a contest's ratios are to the first.
-constexpr std::array<const char*, 3> kSettings{"standard", "fast", "high"};
-constexpr std::array<double, 3> kAccuracies{1, 0.1, 10};
-
-template <std::size_t I>
-std::unique_ptr<Engine> make_setting(const World& world, const EngineOptions& options) {
-    EngineOptions own = options;
-    own.accuracy = kAccuracies[I];
-    return make_roboss(world, own);
-}
-
 std::vector<EngineKind> settings() {
-    return {
-        {kSettings[0], make_setting<0>}, {kSettings[1], make_setting<1>}, {kSettings[2], make_setting<2>}};
+    return {{"standard", make_roboss}, {"fast", make_roboss_fast}, {"high", make_roboss_high}};
 }
 
 std::size_t size_of(const SceneKind& scene) {

@@ -27,6 +27,24 @@ std::size_t distance(const std::string& a, const std::string& b) {
     return before.back();
 }
 
+using Letters = std::vector<std::pair<char, char>>;
+
+/// Neighbouring letters, sorted.
+Letters pairs_of(const std::string& text) {
+    Letters pairs;
+    for (std::size_t i = 1; i < text.size(); ++i) pairs.emplace_back(text[i - 1], text[i]);
+    std::ranges::sort(pairs);
+    return pairs;
+}
+
+/// The share of their pairs that two texts have in common (Dice's coefficient): 1 for equal ones.
+double likeness(const Letters& a, const Letters& b) {
+    Letters common;
+    std::ranges::set_intersection(a, b, std::back_inserter(common));
+    return 2.0 * static_cast<double>(common.size()) /
+           static_cast<double>(std::max<std::size_t>(a.size() + b.size(), 1));
+}
+
 }  // namespace
 
 std::string similar_to(const std::string& word, const std::vector<std::string>& names) {
@@ -43,6 +61,18 @@ std::string did_you_mean(const std::string& word, const std::vector<std::string>
                          const std::string& otherwise) {
     const std::string name = similar_to(word, names);
     return name.empty() ? otherwise : "did you mean '" + name + "'?";
+}
+
+std::vector<std::string> most_alike(const std::string& word, const std::vector<std::string>& names,
+                                    std::size_t most) {
+    const Letters wanted = pairs_of(word);
+    std::vector<std::pair<double, std::string>> found;  // less is more like it
+    found.reserve(names.size());
+    for (const std::string& name : names) found.emplace_back(-likeness(wanted, pairs_of(name)), name);
+    std::ranges::sort(found);
+    std::vector<std::string> best;
+    for (std::size_t i = 0; i < std::min(most, found.size()); ++i) best.push_back(found[i].second);
+    return best;
 }
 
 std::string pattern_of(const std::string& text) {

@@ -6,6 +6,7 @@
 #include <charconv>
 
 #include "core/hash.h"
+#include "core/markup.h"
 #include "gateway/page_session.h"
 #include "gateway/server_core_session.h"
 #include "wire/viewer_protocol.h"
@@ -41,12 +42,6 @@ std::string name_of(const asio::ip::tcp::socket& socket) {
     beast::error_code error;
     const auto endpoint = socket.remote_endpoint(error);
     return error ? "someone" : endpoint.address().to_string();
-}
-
-std::string escaped(std::string_view text) {
-    std::string safe;
-    for (const char c : text) safe += c == '<' ? "&lt;" : c == '&' ? "&amp;" : std::string(1, c);
-    return safe;
 }
 
 std::string refusal_page(std::string_view why) {

@@ -4,12 +4,14 @@
 #include <algorithm>
 #include <array>
 #include <map>
+#include <set>
 #include <span>
 #include <string_view>
 #include <tuple>
 #include <unordered_map>
 #include <utility>
 
+#include "core/similar.h"
 #include "ros2/file_line.h"
 #include "ros2/robot_names.h"
 #include "ros2_types/messages/sensor_messages.h"
@@ -21,33 +23,13 @@ namespace {
 constexpr std::size_t kUnknownMost = 20;  // entries without a topic that get a notice of their own
 constexpr std::size_t kNearestMost = 3;
 
-/// Pairs of neighbouring characters, in ascending order.
-std::vector<std::pair<char, char>> pairs_of(const std::string& text) {
-    std::vector<std::pair<char, char>> pairs;
-    for (std::size_t i = 1; i < text.size(); ++i) pairs.emplace_back(text[i - 1], text[i]);
-    std::ranges::sort(pairs);
-    return pairs;
-}
-
-/// The share of their pairs that two texts have in common (Dice's coefficient): 1 for equal ones.
-double likeness(const std::vector<std::pair<char, char>>& a, const std::vector<std::pair<char, char>>& b) {
-    std::vector<std::pair<char, char>> common;
-    std::ranges::set_intersection(a, b, std::back_inserter(common));
-    return 2.0 * static_cast<double>(common.size()) /
-           static_cast<double>(std::max<std::size_t>(a.size() + b.size(), 1));
-}
-
 /// The names that are most like this one, as "/lidar, /lidar/points".
 std::string nearest_topics(const std::string& wanted, std::span<const GazeboTopic> topics) {
-    const auto pairs = pairs_of(wanted);
-    std::vector<std::pair<double, std::string>> found;  // less is more like it
-    for (const GazeboTopic& topic : topics)
-        found.emplace_back(-likeness(pairs, pairs_of(topic.name)), topic.name);
-    std::ranges::sort(found);
-    found.erase(std::unique(found.begin(), found.end()), found.end());
+    std::set<std::string> names;
+    for (const GazeboTopic& topic : topics) names.insert(topic.name);
     std::string text;
-    for (std::size_t i = 0; i < std::min(kNearestMost, found.size()); ++i)
-        text += (text.empty() ? "" : ", ") + found[i].second;
+    for (const std::string& name : most_alike(wanted, {names.begin(), names.end()}, kNearestMost))
+        text += (text.empty() ? "" : ", ") + name;
     return text;
 }
 
