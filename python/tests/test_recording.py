@@ -105,7 +105,16 @@ def test_the_list_has_all_variables_with_their_units():
     assert rows["arm.tool.twist"]["parts"] == ["vx", "vy", "vz", "wx", "wy", "wz"]
 
 
+def test_an_example_is_recorded_with_its_orders(journal, tmp_path):
+    command("record", "example:crossroads", "car_*.speed", "--until", 1, "-o", tmp_path / "example.parquet")
+    ran, ordered = analysis.read(tmp_path / "example.parquet"), analysis.record(journal, "car_*.speed")
+    assert ran["car_0.speed"].max() > 0.1 and np.array_equal(ran["car_0.speed"], ordered["car_0.speed"])
+    assert "arm.elbow.power" in command("record", "example:arm", "--list")
+
+
 @pytest.mark.parametrize("arguments, code, name", [
+    (["record", "example:crosroads", "--until", "1", "-o", "a.parquet"], 1, "did you mean 'crossroads'?"),
+    (["record", "example:crossroads", "-o", "a.parquet"], 1, "no-end"),
     (["record", "no_such.sdf", "*", "--until", "1", "-o", "a.parquet"], 1, "no-file"),
     (["record", ARM, "arm.elbo.effort", "--until", "1", "-o", "a.parquet"], 1, "unknown-name"),
     (["record", ARM, "*", "-o", "a.parquet"], 1, "no-end"),

@@ -9,7 +9,7 @@ from typing import Any, Sequence
 
 from ..errors import ArgumentError
 from .command import Parser, Progress, check_file
-from .recorder import Recorded, check_order, is_journal, journal_of_run, opened, record_file, ways
+from .recorder import Recorded, check_order, is_journal, journal_of_run, opened, record_file, ways, world_of
 from .recording import WRITTEN, check_package, existing
 from .ros2_recorder import record_ros2, topics_of
 from .variables import Variables
@@ -26,6 +26,7 @@ _EXAMPLES = """Variables are named ROBOT.WHAT; * ? [...] match many, up to the n
 Examples:
   roboss record worlds/crossroads.sdf --list
   roboss record worlds/crossroads.sdf 'car_*.speed' car_3.pose --until 10 -o run.parquet
+  roboss record example:city 'car_*.speed' --until 10 -o city.parquet
   roboss record worlds/crossroads.sdf '*.pose' --until 10 --orders worlds/crossroads.jsonl -o run.mcap
   roboss record run.journal 'arm.*.effort' --every 0.001 -o efforts.parquet        afterwards, from a journal
   roboss record worlds/cameras.sdf 'rover.**' --until 5 --every 0.1 -o run.rrd     robots, images and scans for Rerun
@@ -34,7 +35,7 @@ Examples:
   roboss record run.journal --ros2 '/car_3/**' '/tf*' -o bag                a rosbag2: ros2 bag play bag
   roboss record run.journal --ros2 --list                                   the topics that there are
 
-A world is run here; with --orders or --client it is first run by `roboss run` into a journal. A journal is replayed
+A world is run here; an example, and a world with --orders or --client, is first run by `roboss run` into a journal. A journal is replayed
 to the last bit, so its recording is that of the run. MCAP opens in Foxglove, .rrd in Rerun, Parquet in pandas, Polars, DuckDB,
 CSV in every spreadsheet."""
 
@@ -42,7 +43,7 @@ CSV in every spreadsheet."""
 def parser() -> Parser:
     result = Parser("roboss record", examples=_EXAMPLES,
                     description="Records variables of a world or of a journal over time, as Parquet, MCAP, CSV or Rerun.")
-    result.add_argument("source", metavar="SOURCE", help="a world (SDFormat, URDF, MJCF) or a journal")
+    result.add_argument("source", metavar="SOURCE", help="a world (SDFormat, URDF, MJCF), example:NAME with its programs and orders, or a journal")
     result.add_argument("variables", nargs="*", metavar="VARIABLE", help="names or patterns (default: *.pose)")
     result.add_argument("-o", "--output", metavar="FILE", help="ends in .parquet, .mcap, .csv (numbers only) or .rrd (Rerun, with the robots in 3-D)")
     result.add_argument("--ros2", action="store_true", help="record the robots' topics of ROS 2, with its messages: VARIABLE is a "
@@ -69,13 +70,13 @@ def run(options: Any) -> Any:
         raise ArgumentError(f"a time of {options.every} s between samples", "give one above 0", "bad-value")
     if not options.list:
         _check_name(options)
-    existing(options.source)
+    named, options.source = options.source, existing(world_of(options.source))
     if not options.list:
         check_file(options.output, reads=[options.source, options.orders, *options.client])
     progress, begin = Progress("record", options.quiet), time.monotonic()
     with ExitStack() as stack:
         source = options.source
-        if (options.orders or options.client) and not options.list:
+        if (options.orders or options.client or named != options.source) and not options.list:
             if is_journal(source):
                 raise ArgumentError("--orders or --client with a journal", "leave them out: it has its orders", "bad-value")
             if options.until is None:
@@ -83,12 +84,12 @@ def run(options: Any) -> Any:
             check_order(options.start, options.until)
             progress.note("runs the world into a journal")
             folder = stack.enter_context(tempfile.TemporaryDirectory(prefix="roboss_record_"))
-            source = journal_of_run(source, options.until, folder, orders=options.orders, clients=options.client)
+            source = journal_of_run(named, options.until, folder, orders=options.orders, clients=options.client)
         if options.list:
             return _list(options)
         record, default = (record_ros2, None) if options.ros2 else (record_file, ["*.pose"])
         done = record(source, options.output, options.variables or default, until=options.until, every=options.every,
-                      start=options.start, branch=options.branch, name=options.source,
+                      start=options.start, branch=options.branch, name=named,
                       progress=lambda now, end: progress(f"{now:.2f} of {end:.2f} s"))
     progress.note_if(ways(options.source, options.branch))
     if options.ros2:

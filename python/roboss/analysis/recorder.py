@@ -1,6 +1,7 @@
 """Recording of a world that is run, and of a journal that is replayed: any variables, also afterwards."""
 from __future__ import annotations
 
+import json
 import os
 import subprocess
 import tempfile
@@ -14,17 +15,18 @@ import numpy as np
 from ..errors import ArgumentError, RobossError, WorldWarning
 from ..journal import Journal, _Replay
 from ..kinematics import RobotModel
-from ..names import real
+from ..names import real, unknown
 from ..outputs import check_output
 from ..run import Run
 from ..simulation import Simulation
-from ..world import World, load
+from ..world import World, example, load
 from .recording import WRITTEN, Recording, existing, read, write, writer_of
 from .variables import ChangingVariables, Variables
 
 Source = Union[str, os.PathLike, World, Simulation, Journal]
 Progress = Callable[[float, float], None]  # gets the time and the end, s
 _PROGRAM = Path(__file__).parents[1] / "program" / "bin" / "roboss"
+_EXAMPLE = "example:"
 _SQLITE = b"SQLite format 3\0"
 
 
@@ -205,7 +207,23 @@ def is_journal(path: Union[str, os.PathLike]) -> bool:
 
 def opened_world(path: Union[str, os.PathLike], **options) -> World:
     """load(), without its warnings: a recording is not the place for them (`roboss check` has them)."""
-    return quietly_loaded(existing(path), **options)
+    return quietly_loaded(existing(world_of(path)), **options)
+
+
+def world_of(source: Union[str, os.PathLike]) -> str:
+    """The path of the world of `example:NAME`, as `roboss run` takes it; of any other source its own path.
+
+    Raises:
+        UnknownNameError: no example has this name.
+    """
+    path = os.fspath(source)
+    if not path.startswith(_EXAMPLE):
+        return path
+    worlds = {entry["name"]: entry["world"] for entry in json.loads(Path(example("examples.json")).read_text(encoding="utf-8"))}
+    name = path.removeprefix(_EXAMPLE)
+    if name not in worlds:
+        raise unknown("example", name, sorted(worlds))
+    return example(worlds[name])
 
 
 def quietly_loaded(world: Union[str, os.PathLike], **options) -> World:
@@ -219,7 +237,7 @@ def opened(source: Source, start: Optional[float], until: Optional[float],
            branch: Optional[int]) -> tuple[Run, float, str]:
     """The run at its first sample, the time of the last, and what it is."""
     if not isinstance(source, (World, Simulation, Journal)):
-        existing(source)
+        source = existing(world_of(source))
     check_order(start, until)
     if isinstance(source, Journal) or (not isinstance(source, (World, Simulation)) and is_journal(source)):
         journal = source if isinstance(source, Journal) else Journal(source)

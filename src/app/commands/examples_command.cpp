@@ -20,7 +20,7 @@ const char* const kExamplesFooter =
   roboss run example:city
   roboss run example:spider --headless --duration 10
 With --client or --orders your own programs or orders take the place of those of the example.
-The commands check, snapshot, sense, dataset and controller take example:NAME for a world, too.
+The commands check, snapshot, sense, dataset, controller, record and analyse take example:NAME for a world, too.
 
 Exit codes: 0 done, 1 the installation has no examples.)";
 
