@@ -59,6 +59,15 @@ bool same_layout(const PartList& list, const RobotType& a, const RobotType& b) {
     return true;
 }
 
+/// True if the type has one of these names at another place: then places do not tell which part is meant.
+bool has_elsewhere(const PartList& list, const RobotType& type, const std::vector<std::string>& names) {
+    const std::vector<std::string> own = list.names(type);
+    for (std::size_t i = 0; i < names.size(); ++i)
+        if (const auto place = place_in(own, names[i]); place && *place != i && own[i] != names[i])
+            return true;
+    return false;
+}
+
 /// `name`, then its last parts: "a/b/c", "b/c", "c".
 std::vector<std::string> with_shorter(std::string name) {
     std::vector<std::string> all{name};
@@ -82,7 +91,10 @@ std::vector<SharedPart> shared(const PartList& list, std::span<const RobotType* 
                 break;
             }
     }
-    if (!alike || parts.size() == names.size()) return parts;
+    const bool by_place = alike && std::ranges::none_of(types, [&](const RobotType* t) {
+                              return has_elsewhere(list, *t, names);
+                          });
+    if (!by_place || parts.size() == names.size()) return parts;
     parts.clear();
     for (std::size_t i = 0; i < names.size(); ++i) parts.push_back({names[i], std::vector(types.size(), i)});
     return parts;

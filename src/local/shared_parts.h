@@ -17,8 +17,9 @@ struct SharedPart {
 };
 
 /// See the top of the file. Of robots of one type all parts are shared: their names may differ, then those of
-/// the first robot count. Of different types those are shared whose names are equal, and which are of one
-/// kind: joints whose positions have one unit, sensors of one kind, commands with the same values.
+/// the first robot count. Where a robot has one of these names for another part, and of different types those
+/// are shared whose names are equal, and which are of one kind: joints whose positions have one unit, sensors
+/// of one kind, commands with the same values.
 struct SharedParts {
     std::vector<const RobotType*> types;     ///< all that robots of the set have, the first robot's first
     std::vector<std::uint32_t> type_of_row;  ///< of each robot: in `types`

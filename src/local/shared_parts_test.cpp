@@ -65,6 +65,16 @@ TEST(SharedParts, OfOneTypeAreFoundByNameWhereTheNamesAreTheSameInAnotherOrder) 
     EXPECT_EQ(set.axes()[0].of, (std::vector<std::size_t>{0, 1}));
 }
 
+TEST(SharedParts, OfOneTypeWithMixedNamesAreNotTakenByPlace) {
+    ModelSpec swapped = rover("/b/cmd_vel"), other = rover("/c/cmd_vel");
+    std::swap(swapped.joints[0].name, swapped.joints[1].name);
+    for (JointSpec& joint : other.joints) joint.name = "c_" + joint.name;
+    const RobotSet set = all_of(world_of({rover("/a/cmd_vel"), swapped, other}));
+    EXPECT_TRUE(set.shared().one_type);
+    EXPECT_TRUE(set.axes().empty());  // "wheel_0" is the first wheel here, the second there
+    EXPECT_EQ(names_of(set.shared().commands), (std::vector<std::string>{"cmd_vel"}));
+}
+
 TEST(SharedParts, OfSeveralTypesAreThoseOfOneNameAndKind) {
     ModelSpec other = rover("/b/cmd_vel", 0.5);
     other.joints[0].name = "only_here";                // another name

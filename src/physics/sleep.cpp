@@ -120,6 +120,15 @@ bool motor_rests(const Dof& dof, const MotorSetpoint& motor, double q, double v)
     return false;
 }
 
+/// rad/s or m/s: the speed that the joint could gain within the time of rest if its dampers let go, beside
+/// the one that it has. Dampers that slow a joint down do not hold it: it creeps on for ever, and would be
+/// left hanging.
+double speed_undamped(const Dof& dof, const MotorSetpoint& motor, double v) {
+    const bool motor_damps = motor.mode == MotorMode::kVelocity || motor.mode == MotorMode::kPosition;
+    const double damping = dof.damping + (motor_damps ? dof.velocity_gain : 0);
+    return std::fabs(v) * (1 + kRestTime * damping * dof.inverse_inertia);
+}
+
 bool moves_slowly(const RobotWork& work) {
     if (work.speed > kRestSpeed) return false;
     for (const BodyWork& body : work.bodies)
@@ -133,7 +142,7 @@ bool joints_rest(const RobotWork& work) {
     for (std::size_t d = 0; d < type.dofs.size(); ++d) {
         const Body& body = type.bodies[static_cast<std::size_t>(type.dofs[d].body)];
         const double v = work.state->v[d + static_cast<std::size_t>(type.base_nv())];
-        if (std::fabs(v) > kRestJoint) return false;
+        if (speed_undamped(type.dofs[d], work.state->motors[d], v) > kRestJoint) return false;
         fastest = std::max(fastest, std::fabs(v));
         const double q = work.state->q[static_cast<std::size_t>(body.q_index)];
         if (!motor_rests(type.dofs[d], work.state->motors[d], q, v)) return false;

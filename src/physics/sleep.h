@@ -5,7 +5,8 @@
 // a limit: not a pendulum at its turning point), no timed wrench, and no motor that still works against
 // something (a servo that stands still off its target, drooping or stopped, rests), and nothing that it
 // touches has a surface in motion: what rides on a belt is not at rest. Both its velocity and what the tick
-// moved it by must be as slow: penetration recovery, bonds and guards move robots whose velocity is zero.
+// moved it by must be as slow: penetration recovery, bonds and guards move robots whose velocity is zero. A
+// joint that dampers slow down counts with the speed that it would gain within the half second without them.
 // Where a contact recovers more slowly than 2 mm/s, half of its speed counts instead of 1 mm/s. The
 // velocities then become exactly zero, which takes at most half a microjoule a kilogram. Each sleeper keeps
 // its interaction bound and the robots that it touches (frozen edges).

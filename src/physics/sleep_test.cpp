@@ -252,6 +252,41 @@ TEST(Sleep, AServoThatApproachesSlowlyArrivesFirst) {
     EXPECT_NEAR(sim.states[0].q[7], 5e-3, 1e-4);
 }
 
+/// A slider of 1 kg on a vertical rail.
+ModelSpec slider() {
+    ModelSpec model = one_link(link("cart", 1.0, box_inertia(1.0, {0.1, 0.1, 0.1}), {{0, 0, 5}, {}}));
+    model.joints.push_back(
+        joint(JointSpecKind::kPrismatic, "rail", "world", "cart", {{0, 0, 5}, {}}, {0, 0, 1}));
+    return model;
+}
+
+TEST(Sleep, AJointThatADamperSlowsDownCreepsOn) {
+    // Half a millimetre a second: slower than rest. A damper of the joint, then one of its motor.
+    for (const bool by_motor : {false, true}) {
+        World world = sleepy_world(2e-3);
+        ModelSpec cart = slider();
+        (by_motor ? cart.joints[0].axes[0].velocity_gain : cart.joints[0].axes[0].damping) = 20000;
+        place(world, cart, "cart");
+        Simulation sim(world);
+        if (by_motor) sim.set_motor(0, 0, MotorMode::kVelocity, 0);
+        sim.run(10);
+        EXPECT_FALSE(sim.states[0].rest.asleep);
+        EXPECT_NEAR(sim.states[0].q[7], -9.81 / 20000 * 10,
+                    1e-6);  // m g = damping * v, but for the first tick
+    }
+}
+
+TEST(Sleep, AJointThatADamperBringsToItsSpringSleepsThere) {
+    World world = sleepy_world(2e-3);
+    ModelSpec cart = slider();
+    cart.joints[0].axes[0].damping = 200,
+    cart.joints[0].axes[0].spring_stiffness = 400;  // 0.5 s to a share of 1 / e
+    place(world, cart, "cart");
+    Simulation sim(world);
+    ASSERT_TRUE(fall_asleep(sim, 20));
+    EXPECT_NEAR(sim.states[0].q[7], -9.81 / 400, 5e-5);
+}
+
 TEST(Sleep, APendulumAtItsTurningPointAndASlowDriftStayAwake) {
     World world = sleepy_world(1e-3);
     world.gravity = {0, 0, -1e-5};  // so slow that its turn takes seconds
