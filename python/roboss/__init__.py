@@ -14,6 +14,7 @@
 SI units and radians everywhere; positions and velocities in the world frame and its axes. Robots are the first axis of
 all arrays. The result is the same to the last bit for any number of threads, and the same as that of `roboss run`.
 """
+from . import pickling as pickling
 from ._core import Diagnostic, Save
 from .batch import Batch
 from .camera import Camera, RobotCameras

@@ -2,7 +2,7 @@
 from __future__ import annotations
 
 import os
-from typing import Iterable, Optional, Union
+from typing import Any, Iterable, Optional, Union
 
 import numpy as np
 from numpy.typing import NDArray
@@ -40,11 +40,14 @@ class Batch:
                  seed: int = 0):
         count = whole("count", count, 1)
         self.world: World = world if isinstance(world, World) else load(world)  #: that they simulate
-        self._core = _core.batch(self.world._model, count, threads_or_all(threads), whole("seed", seed))
+        self._core = _core.batch([self.world._model] * count, threads_or_all(threads), whole("seed", seed))
         self._simulations = self._core.simulations
         for simulation in self._simulations:
             simulation.see(self.world._looks, 1)
         self._shape = (count,)
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return _batch_of, (self.world, len(self), self.threads, [sim.save() for sim in self])
 
     def step(self, ticks: int = 1) -> NDArray[np.bool_]:
         """Advances all simulations by `ticks` time steps. Other threads of Python run meanwhile.
@@ -84,8 +87,16 @@ class Batch:
 
     def __getitem__(self, number: int) -> Simulation:
         simulation = Simulation._of(self.world, self._simulations[number])
-        simulation._in_batch = True
+        simulation._batch = (self, number)
         return simulation
 
     def __repr__(self) -> str:
         return f"<roboss.Batch of {len(self)} simulations of '{self.world.name}'>"
+
+
+def _batch_of(world: World, count: int, threads: int, saves: list[_core.Save]) -> Batch:
+    """The batch of its parts, for pickle."""
+    batch = Batch(world, count, threads=threads)
+    for simulation, save in zip(batch, saves):
+        simulation.restore(save)
+    return batch

@@ -66,6 +66,10 @@ class Robots:
         self._core = _core.robots(self._simulations, list(ids))
         self._in_common: Optional[TypeFacts] = None
 
+    def __reduce__(self) -> tuple[Any, ...]:
+        self._check_current()
+        return Robots, (self.simulation, self.ids)
+
     def __len__(self) -> int:
         return len(self.ids)
 
@@ -379,10 +383,13 @@ class Robots:
             raise ArgumentError(f"robots {key!r}: {error}", "give a name, a row, a slice, rows or a mask", "bad-rows") from None
         if chosen.ndim != 1:
             raise ArgumentError(f"robots {key!r}", "give a name, a row, a slice, rows or a mask", "bad-rows")
+        self._check_current()
+        return Robots(self.simulation, [int(number) for number in chosen])
+
+    def _check_current(self) -> None:
         if self._simulations is not self.simulation._simulations:
             raise StateError("robots were spawned or removed since these were asked for",
                              "ask Simulation.robots() again", "changed-world")
-        return Robots(self.simulation, [int(number) for number in chosen])
 
     def _sensor(self, number: int) -> Sensor:
         """The sensor of this number; of equal names `robots[name]` gives the first."""
