@@ -27,7 +27,9 @@ from .mujoco_order import MujocoOrder
 from .radio import Message, Radio
 from .remote import RemoteSimulation, connect
 from .robots import Robots
+from .sensor_description import Parameter, SensorDescription, ValueDescription
 from .sensors import Sensor
+from .specs import ActionSpec, Columns, ObservationSpec
 from .run import CONTACT
 from .simulation import Simulation
 from .trajectories import CartesianTrajectory, JointTrajectory, ctraj, jtraj
@@ -36,9 +38,10 @@ from .world import World, example, load
 
 __version__ = "0.2.0"
 __all__ = [
-    "ArgumentError", "Batch", "CONTACT", "Camera", "CartesianTrajectory", "ClusterError", "Diagnostic", "Follower",
-    "IKSolution", "JointTrajectory", "Journal", "JournalError", "Message", "ModelBuilder", "MujocoOrder", "OrderError",
-    "Radio", "RobossError", "RemoteSimulation", "RobotCameras", "RobotModel", "Robots", "Save", "SaveError", "Sensor",
-    "SensorError", "Simulation", "StateError", "UnknownNameError", "View", "ViewError", "World", "WorldBuilder",
+    "ActionSpec", "ArgumentError", "Batch", "CONTACT", "Camera", "CartesianTrajectory", "ClusterError", "Columns",
+    "Diagnostic", "Follower", "IKSolution", "JointTrajectory", "Journal", "JournalError", "Message", "ModelBuilder",
+    "MujocoOrder", "ObservationSpec", "OrderError", "Parameter", "Radio", "RemoteSimulation", "RobossError",
+    "RobotCameras", "RobotModel", "Robots", "Save", "SaveError", "Sensor", "SensorDescription", "SensorError",
+    "Simulation", "StateError", "UnknownNameError", "ValueDescription", "View", "ViewError", "World", "WorldBuilder",
     "WorldError", "WorldWarning", "connect", "ctraj", "example", "jtraj", "load",
 ]
