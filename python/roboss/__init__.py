@@ -15,6 +15,7 @@ SI units and radians everywhere; positions and velocities in the world frame and
 all arrays. The result is the same to the last bit for any number of threads, and the same as that of `roboss run`.
 """
 from . import pickling as pickling
+from . import terrain as terrain
 from ._core import Diagnostic, Save
 from .batch import Batch
 from .camera import Camera, RobotCameras
@@ -24,6 +25,7 @@ from .errors import (ArgumentError, ClusterError, JournalError, OrderError, Robo
 from .journal import Journal
 from .kinematics import Follower, IKSolution, RobotModel
 from .mujoco_order import MujocoOrder
+from .padded import PaddedRobots
 from .radio import Message, Radio
 from .remote import RemoteSimulation, connect
 from .robots import Robots
@@ -40,7 +42,7 @@ __version__ = "0.2.0"
 __all__ = [
     "ActionSpec", "ArgumentError", "Batch", "CONTACT", "Camera", "CartesianTrajectory", "ClusterError", "Columns",
     "Diagnostic", "Follower", "IKSolution", "JointTrajectory", "Journal", "JournalError", "Message", "ModelBuilder",
-    "MujocoOrder", "ObservationSpec", "OrderError", "Parameter", "Radio", "RemoteSimulation", "RobossError",
+    "MujocoOrder", "ObservationSpec", "OrderError", "PaddedRobots", "Parameter", "Radio", "RemoteSimulation", "RobossError",
     "RobotCameras", "RobotModel", "Robots", "Save", "SaveError", "Sensor", "SensorDescription", "SensorError",
     "Simulation", "StateError", "UnknownNameError", "ValueDescription", "View", "ViewError", "World", "WorldBuilder",
     "WorldError", "WorldWarning", "connect", "ctraj", "example", "jtraj", "load",

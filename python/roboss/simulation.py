@@ -229,7 +229,7 @@ class Simulation(Run):
 
     def _may_change(self) -> None:
         if self._batch is not None:
-            raise StateError("the simulations of a Batch are all of one world", "use a Simulation", "in-batch")
+            raise StateError("a simulation of a Batch keeps its world", "use a Simulation", "in-batch")
 
     def _continue(self, core: _core.Simulation, model: _core.Model, frames: list, looks: _core.Looks, edit: Edit) -> None:
         """Goes on in another world."""

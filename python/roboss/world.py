@@ -107,11 +107,14 @@ class World:
     def __repr__(self) -> str:
         return f"<roboss.World '{self.name}' from {self.file}: {len(self.robots)} robots, dt={self.dt} s>"
 
-    def _find(self, wanted: Union[str, Iterable[str]]) -> list[int]:
-        """Numbers of the robots that match a pattern or are named."""
+    def _find(self, wanted: Union[str, Iterable[str]], none: Optional[list[int]] = None) -> list[int]:
+        """Numbers of the robots that match a pattern or are named. `none`: where no robot matches a pattern; None: an
+        error."""
         names = self.robots
         if isinstance(wanted, str):
             ids = [number for number, name in enumerate(names) if fnmatchcase(name, wanted)]
+            if not ids and none is not None:
+                return none
             if not ids:
                 raise unknown("robot", wanted, names)
         else:

@@ -10,7 +10,9 @@ from city_cars import TICK_S, arguments, needed, train_and_compare
 
 with needed():
     import logging
+    import os
 
+    os.environ.setdefault("RAY_raylet_start_wait_time_s", "300")  # a busy computer is slow to start it
     import ray
     import torch
     from ray.rllib.algorithms.ppo import PPOConfig
@@ -21,7 +23,7 @@ with needed():
 
     import roboss.envs
 
-STEPS, EPISODE_S = 64, 10.0  # of an agent between two updates; after which all cars start again
+STEPS, EPISODE_S = 128, 10.0  # of an agent between two updates; after which all cars start again
 
 
 def algorithm_of(cars, seed):
@@ -32,9 +34,8 @@ def algorithm_of(cars, seed):
               .learners(num_learners=0).debugging(seed=seed, log_level="ERROR")
               .multi_agent(policies={"driver"}, policy_mapping_fn=lambda agent, *_, **__: "driver")
               .rl_module(rl_module_spec=RLModuleSpec(model_config=model))
-              .training(train_batch_size_per_learner=STEPS * cars, minibatch_size=min(1024, STEPS * cars), num_epochs=6, lr=1e-3,
+              .training(train_batch_size_per_learner=STEPS, minibatch_size=STEPS, num_epochs=4, lr=5e-4,  # counted in steps of all
                         gamma=0.98, lambda_=0.95, vf_clip_param=100.0, grad_clip=0.5))
-    config.count_steps_by = "agent_steps"
     return config.build_algo()
 
 
