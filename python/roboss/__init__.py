@@ -14,6 +14,8 @@
 SI units and radians everywhere; positions and velocities in the world frame and its axes. Robots are the first axis of
 all arrays. The result is the same to the last bit for any number of threads, and the same as that of `roboss run`.
 """
+from . import pickling as pickling
+from . import terrain as terrain
 from ._core import Diagnostic, Save
 from .batch import Batch
 from .camera import Camera, RobotCameras
@@ -23,10 +25,13 @@ from .errors import (ArgumentError, ClusterError, JournalError, OrderError, Robo
 from .journal import Journal
 from .kinematics import Follower, IKSolution, RobotModel
 from .mujoco_order import MujocoOrder
+from .padded import PaddedRobots
 from .radio import Message, Radio
 from .remote import RemoteSimulation, connect
 from .robots import Robots
+from .sensor_description import Parameter, SensorDescription, ValueDescription
 from .sensors import Sensor
+from .specs import ActionSpec, Columns, ObservationSpec
 from .run import CONTACT
 from .simulation import Simulation
 from .trajectories import CartesianTrajectory, JointTrajectory, ctraj, jtraj
@@ -35,9 +40,10 @@ from .world import World, example, load
 
 __version__ = "0.2.0"
 __all__ = [
-    "ArgumentError", "Batch", "CONTACT", "Camera", "CartesianTrajectory", "ClusterError", "Diagnostic", "Follower",
-    "IKSolution", "JointTrajectory", "Journal", "JournalError", "Message", "ModelBuilder", "MujocoOrder", "OrderError",
-    "Radio", "RobossError", "RemoteSimulation", "RobotCameras", "RobotModel", "Robots", "Save", "SaveError", "Sensor",
-    "SensorError", "Simulation", "StateError", "UnknownNameError", "View", "ViewError", "World", "WorldBuilder",
+    "ActionSpec", "ArgumentError", "Batch", "CONTACT", "Camera", "CartesianTrajectory", "ClusterError", "Columns",
+    "Diagnostic", "Follower", "IKSolution", "JointTrajectory", "Journal", "JournalError", "Message", "ModelBuilder",
+    "MujocoOrder", "ObservationSpec", "OrderError", "PaddedRobots", "Parameter", "Radio", "RemoteSimulation", "RobossError",
+    "RobotCameras", "RobotModel", "Robots", "Save", "SaveError", "Sensor", "SensorDescription", "SensorError",
+    "Simulation", "StateError", "UnknownNameError", "ValueDescription", "View", "ViewError", "World", "WorldBuilder",
     "WorldError", "WorldWarning", "connect", "ctraj", "example", "jtraj", "load",
 ]

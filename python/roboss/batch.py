@@ -1,27 +1,32 @@
-"""Batch: many simulations of one world, on one pool of threads."""
+"""Batch: many simulations, of one world or of several, on one pool of threads."""
 from __future__ import annotations
 
 import os
-from typing import Iterable, Optional, Union
+from typing import Any, Iterable, Literal, Optional, Sequence, Union, overload
 
 import numpy as np
 from numpy.typing import NDArray
 
 from . import _core
-from .names import whole
+from .errors import ArgumentError
+from .names import flag, listed, whole
+from .padded import PaddedRobots
 from .robots import Robots
 from .simulation import Simulation, threads_or_all
 from .world import World, load
 
+_Source = Union[World, str, os.PathLike]
+
 
 class Batch:
-    """`count` simulations of one world, each stepped by one thread at a time: for learning and sampling.
+    """Simulations of one world, or one of each of several, each stepped by one thread at a time: for learning and sampling.
 
     `batch[i]` is a Simulation like any other: it can be stepped, saved, reset by itself. Their number is B, `len(batch)`.
 
     Args:
-        world: a World, or what `load` takes.
-        count: how many simulations.
+        world: a World, or what `load` takes; or a list of them, one for each simulation: other files, terrains, numbers
+            of robots, with one `dt`.
+        count: how many simulations; of a list None, or its length.
         threads: that step; None: one for each core that this process may use. No bit depends on it.
         seed: of sensor noise; simulation i has seed + i.
 
@@ -36,15 +41,23 @@ class Batch:
     array([0., 1., 2., 3.])
     """
 
-    def __init__(self, world: Union[World, str, os.PathLike], count: int, *, threads: Optional[int] = None,
-                 seed: int = 0):
-        count = whole("count", count, 1)
-        self.world: World = world if isinstance(world, World) else load(world)  #: that they simulate
-        self._core = _core.batch(self.world._model, count, threads_or_all(threads), whole("seed", seed))
+    def __init__(self, world: Union[_Source, Sequence[_Source]], count: Optional[int] = None, *,
+                 threads: Optional[int] = None, seed: int = 0):
+        self.worlds: tuple[World, ...] = _worlds_of(world, count)  #: of each simulation
+        self._core = _core.batch([one._model for one in self.worlds], threads_or_all(threads), whole("seed", seed))
         self._simulations = self._core.simulations
-        for simulation in self._simulations:
-            simulation.see(self.world._looks, 1)
-        self._shape = (count,)
+        for simulation, one in zip(self._simulations, self.worlds):
+            simulation.see(one._looks, 1)
+        self._shape = (len(self.worlds),)
+        self._is_alike = len({one.hash for one in self.worlds}) == 1
+
+    @property
+    def world(self) -> World:
+        """That they simulate; of several worlds, that of the first simulation."""
+        return self.worlds[0]
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return _batch_of, (self.worlds, self.threads, [sim.save() for sim in self])
 
     def step(self, ticks: int = 1) -> NDArray[np.bool_]:
         """Advances all simulations by `ticks` time steps. Other threads of Python run meanwhile.
@@ -54,11 +67,24 @@ class Batch:
         """
         return np.array(self._core.step(whole("ticks", ticks)), dtype=bool)
 
-    def robots(self, wanted: Union[str, Iterable[str]] = "*") -> Robots:
+    @overload
+    def robots(self, wanted: Union[str, Iterable[str]] = "*", *, padded: Literal[False] = False) -> Robots: ...
+    @overload
+    def robots(self, wanted: Union[str, Iterable[str]] = "*", *, padded: Literal[True]) -> PaddedRobots: ...
+    def robots(self, wanted: Union[str, Iterable[str]] = "*", *, padded: bool = False) -> Union[Robots, PaddedRobots]:
         """Robots of all simulations as arrays (B, N, ...); see Simulation.robots.
 
         If a robot refuses what is set, the simulations before its own have it already.
+
+        Args:
+            padded: of different worlds: arrays (B, most, ...) with empty rows where a simulation has fewer robots. Without
+                it a Batch of different worlds raises ArgumentError (code "different-worlds").
         """
+        if flag("padded", padded):
+            return PaddedRobots(self, wanted)
+        if not self._is_alike:
+            raise ArgumentError("the simulations of this Batch are of different worlds", "ask for robots(..., padded=True), or "
+                                "those of batch[i]", "different-worlds")
         return Robots(self, self.world._find(wanted))
 
     def reset(self, chosen: Union[None, NDArray, Iterable[int]] = None) -> None:
@@ -83,9 +109,33 @@ class Batch:
         return self._shape[0]
 
     def __getitem__(self, number: int) -> Simulation:
-        simulation = Simulation._of(self.world, self._simulations[number])
-        simulation._in_batch = True
+        simulation = Simulation._of(self.worlds[number], self._simulations[number])
+        simulation._batch = (self, number)
         return simulation
 
     def __repr__(self) -> str:
-        return f"<roboss.Batch of {len(self)} simulations of '{self.world.name}'>"
+        return f"<roboss.Batch of {len(self)} simulations of {', '.join(sorted({repr(one.name) for one in self.worlds}))}>"
+
+
+def _worlds_of(world: Union[_Source, Sequence[_Source]], count: Optional[int]) -> tuple[World, ...]:
+    """The world of each simulation."""
+    if isinstance(world, (World, str, os.PathLike)):
+        one = world if isinstance(world, World) else load(world)
+        return (one,) * whole("count", count, 1)
+    given = listed("world", world)
+    if not given or count not in (None, len(given)):
+        raise ArgumentError(f"{len(given)} worlds for {count} simulations", "give as many worlds as simulations, or one world",
+                            "wrong-count")
+    worlds = tuple(one if isinstance(one, World) else load(one) for one in given)
+    if len({one.dt for one in worlds}) > 1:
+        raise ArgumentError(f"worlds with steps of {', '.join(sorted({f'{one.dt:g} s' for one in worlds}))}",
+                            "load them with the same dt", "other-step")
+    return worlds
+
+
+def _batch_of(worlds: tuple[World, ...], threads: int, saves: list[_core.Save]) -> Batch:
+    """The batch of its parts, for pickle."""
+    batch = Batch(worlds, threads=threads)
+    for simulation, save in zip(batch, saves):
+        simulation.restore(save)
+    return batch

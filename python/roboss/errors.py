@@ -49,7 +49,7 @@ class SensorError(RobossError, ValueError):
 
 
 class SaveError(RobossError, ValueError):
-    """A saved state that belongs to another world."""
+    """A saved state that belongs to another world, is damaged, or cannot be written."""
 
 
 class JournalError(RobossError, ValueError):

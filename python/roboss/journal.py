@@ -2,7 +2,7 @@
 from __future__ import annotations
 
 import os
-from typing import Iterable, Iterator, Optional, Union
+from typing import Any, Iterable, Iterator, Optional, Union
 
 from . import _core
 from .errors import JournalError, StateError
@@ -39,7 +39,8 @@ class Journal:
         """The world of the branch, without its file. Those before it may have other robots: see `at`."""
         found = self._branch(branch)
         if found.id not in self._worlds:
-            self._worlds[found.id] = World(self._core.model(found.id), found.world_file, ())
+            self._worlds[found.id] = World(self._core.model(found.id), found.world_file, (),
+                                           loaded=self._core.world_hash(found.id))
         return self._worlds[found.id]
 
     def lineage(self, branch: Optional[int] = None) -> tuple[tuple[int, float, float], ...]:
@@ -125,6 +126,12 @@ class _Replay(Simulation):
         replay = cls._of(journal.world(branch), core)
         replay._journal, replay._parts, replay._branch = journal, list(parts), branch
         return replay
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        if self._parts:
+            raise StateError(f"a recording that continues in branch {self._parts[0][0]} has no copy of its own",
+                             "keep the path and the time, or go there with follow=False", "recording")
+        return super().__reduce__()
 
     def step(self, ticks: int = 1) -> None:
         end = self.tick + ticks

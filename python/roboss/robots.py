@@ -13,6 +13,7 @@ from .mujoco_order import MujocoOrder
 from .names import filled, index_of, names_of, numbers, real, text, unknown, whole
 from .radio import Radio
 from .sensors import Sensor
+from .specs import ActionSpec, ObservationSpec, action_spec, observation_spec
 
 if TYPE_CHECKING:
     from .batch import Batch
@@ -65,6 +66,10 @@ class Robots:
         self._world, self._simulations = simulation.world, simulation._simulations  # both stay when robots come or go
         self._core = _core.robots(self._simulations, list(ids))
         self._in_common: Optional[TypeFacts] = None
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        self._check_current()
+        return Robots, (self.simulation, self.ids)
 
     def __len__(self) -> int:
         return len(self.ids)
@@ -364,6 +369,39 @@ class Robots:
             self._link(link)
         return RobotCameras(self, position, target, link, size, fov, far)
 
+    def observation_spec(self, parts: Optional[Iterable[str]] = None) -> ObservationSpec:
+        """What these robots see as one array, with names, units, frames and bounds of its columns.
+
+        Args:
+            parts: "joint_position", "joint_velocity", "pose", "twist", names of sensors; None: joints and all sensors
+                whose readings are rows of numbers (no images, no lists that change their length).
+
+        >>> cars = roboss.Simulation(roboss.example("city.sdf")).robots("car_*")
+        >>> spec = cars.observation_spec(["laser", "joint_velocity"])
+        >>> spec
+        <roboss.ObservationSpec of 25 columns: laser (21 m), joint_velocity (4 rad/s)>
+        >>> spec.read().shape, spec.names[20:22], spec.high[:2]
+        ((50, 25), ('laser[20]', 'front_left'), array([6., 6.]))
+        """
+        return observation_spec(self, parts)
+
+    def action_spec(self, mode: Optional[str] = None, *, command: Optional[str] = None, low: Optional[ArrayLike] = None,
+                    high: Optional[ArrayLike] = None) -> ActionSpec:
+        """What these robots can be told as one array: targets of all joints, or a command of on-board controllers.
+
+        Args:
+            mode: "velocity", "position" or "effort" of the joints' motors; bounds are their limits.
+            command: a name in `commands`, instead.
+            low, high: other bounds, (columns,) or one number.
+
+        >>> arm = roboss.Simulation(roboss.example("arm.sdf")).robots("arm")
+        >>> spec = arm.action_spec("position")
+        >>> spec.names[:2], spec.low[:2], spec.units[0]
+        (('yaw', 'shoulder'), array([-3.1, -1.9]), 'rad')
+        >>> spec.give_scaled(0)                                # to the middle of all limits
+        """
+        return action_spec(self, mode, command, low, high)
+
     @overload
     def __getitem__(self, key: str) -> Sensor: ...
     @overload
@@ -379,10 +417,13 @@ class Robots:
             raise ArgumentError(f"robots {key!r}: {error}", "give a name, a row, a slice, rows or a mask", "bad-rows") from None
         if chosen.ndim != 1:
             raise ArgumentError(f"robots {key!r}", "give a name, a row, a slice, rows or a mask", "bad-rows")
+        self._check_current()
+        return Robots(self.simulation, [int(number) for number in chosen])
+
+    def _check_current(self) -> None:
         if self._simulations is not self.simulation._simulations:
             raise StateError("robots were spawned or removed since these were asked for",
                              "ask Simulation.robots() again", "changed-world")
-        return Robots(self.simulation, [int(number) for number in chosen])
 
     def _sensor(self, number: int) -> Sensor:
         """The sensor of this number; of equal names `robots[name]` gives the first."""

@@ -1,12 +1,13 @@
 """Sensors: the readings of one sensor of many robots, in one call."""
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, Union, cast
+from typing import TYPE_CHECKING, Any, Optional, Union, cast
 
 import numpy as np
 from numpy.typing import NDArray
 
 from . import _core
+from .sensor_description import SensorDescription, describe
 
 if TYPE_CHECKING:
     from .robots import Robots
@@ -33,6 +34,7 @@ class Sensor:
     def __init__(self, robots: Robots, number: int, name: str, kind: str, update_rate: float, numbers: list[int]):
         self.robots, self.name, self.kind, self.update_rate = robots, name, kind, update_rate
         self._number, self._numbers = number, numbers  # among the sensors of the set, and on each robot
+        self._described: Optional[SensorDescription] = None
 
     def read(self) -> NDArray[Any]:
         """The main value of the kind, (N, values): of a laser its ranges, (N, beams) in m; of a camera its images.
@@ -74,6 +76,31 @@ class Sensor:
         columns = _core.read(self.robots._simulations, list(self.robots.ids[:1]), self._numbers[:1])
         return {self._shaped(name, *rest)[0]: rest[0] for name, *rest in columns if self._measures(name, *rest)}
 
+    @property
+    def description(self) -> SensorDescription:
+        """What its arrays are of: place, parameters, and unit, frame and shape of each value, from the world's facts.
+
+        Raises ArgumentError (code "mixed-types") if the sensors of the set differ: ask robots of one type.
+
+        >>> cars = roboss.Simulation(roboss.example("city.sdf")).robots("car_*")
+        >>> laser = cars["laser"].description
+        >>> laser.values["ranges"]
+        ValueDescription(name='ranges', unit='m', frame='sensor', shape=(21,), dtype='float64')
+        >>> laser.link, laser.range, laser.column_angles[[0, -1]].round(2), laser.directions.shape
+        ('chassis', (0.02, 6.0), array([-1.57,  1.57]), (21, 3))
+        """
+        if self._described is None:
+            numbers = dict(zip((self.robots._world._types[robot] for robot in self.robots.ids),
+                               zip(self.robots.ids, self._numbers)))
+            facts = [_core.facts_of_sensor(self.robots._world._model, int(robot), number) for robot, number in numbers.values()]
+            if any(other != facts[0] for other in facts[1:]):
+                raise self.robots._mixed(f"have sensors '{self.name}' that differ", "ask robots of one type")
+            columns = _core.read(self.robots._simulations[:1], list(self.robots.ids[:1]), self._numbers[:1])
+            shaped = [(*self._shaped(*column, lead=(1,)), column[1]) for column in columns if self._measures(*column)]
+            self._described = describe(self.name, facts[0], {name: value for name, value, _ in shaped},
+                                       {name: unit for name, _, unit in shaped})
+        return self._described
+
     def _measures(self, name: str, unit: str, kind: str, values, counts: list[int], image: list[int]) -> bool:
         """Whether a sensor of this type gives the value, in this world."""
         if kind == "image" or name == "intensities":
@@ -91,15 +118,15 @@ class Sensor:
         """Whether a box camera gives boxes in space."""
         return _core.box_type(self.robots._simulations[0], int(self.robots.ids[0]), self._numbers[0]) == "3d"
 
-    def _shaped(self, name: str, unit: str, kind: str, values, counts: list[int],
-                image: list[int]) -> tuple[str, Reading]:
+    def _shaped(self, name: str, unit: str, kind: str, values, counts: list[int], image: list[int],
+                lead: Optional[tuple[int, ...]] = None) -> tuple[str, Reading]:
         width = _ROWS.get((self.kind, name), 1)
         if kind == "quat":
             name += "_quat_xyzw"
         elif width == 4 and name == "orientations":  # w x y z, one behind the other
             name += "_quat_xyzw"
             values = np.roll(np.reshape(values, (-1, 4)), -1, axis=1).ravel()
-        lead = (*self.robots.simulation._shape, len(counts) // len(self.robots._simulations))
+        lead = lead or (*self.robots.simulation._shape, len(counts) // len(self.robots._simulations))
         if kind == "image":
             return name, values.reshape(*lead, *(image if image[2] > 1 else image[:2]))
         if kind == "text":

@@ -1,19 +1,22 @@
 """Simulation: one world in this process, stepped on all cores."""
 from __future__ import annotations
 
+import operator
 import os
 import warnings
-from typing import Iterable, Optional, Self, Sequence, Union
+from typing import Any, Iterable, Optional, Self, Sequence, Union
 
 from numpy.typing import ArrayLike
 
 from . import _core
-from .errors import ArgumentError, StateError, WorldWarning
-from .names import filled, flag, instance, names_of, whole
+from .errors import ArgumentError, SaveError, StateError, WorldWarning
+from .names import file_path, filled, flag, instance, names_of, whole
+from .outputs import check_output
 from .robots import Robots
 from .run import Run
 from .view import View
 from .world import World, load
+from .world_file import Edit
 
 _THREADS_MOST = 1024  # as the command line
 
@@ -34,6 +37,9 @@ def threads_or_all(threads: Optional[int]) -> int:
 class Simulation(Run):
     """One world, at a tick of its time. Not for several threads at once (StateError).
 
+    `pickle` and `copy.deepcopy` give a simulation that goes on with the same bits: with its world, orders that wait,
+    and number of threads, and without its view. One of a Batch goes along with its Batch.
+
     Args:
         world: a World, or what `load` takes.
         threads: that step; None: one for each core that this process may use. No bit depends on it.
@@ -49,6 +55,7 @@ class Simulation(Run):
     """
 
     _view: Optional[View] = None
+    _batch: Optional[tuple[Any, int]] = None  # a Batch, and its place there
 
     def __init__(self, world: Union[World, str, os.PathLike], *, threads: Optional[int] = None, seed: int = 0):
         self.world: World = world if isinstance(world, World) else load(world)  #: that it simulates
@@ -63,7 +70,7 @@ class Simulation(Run):
         return simulation
 
     def _take(self, core: _core.Simulation) -> None:
-        self._core, self._simulations, self._shape, self._in_batch = core, [core], (), False
+        self._core, self._simulations, self._shape = core, [core], ()
         core.see(self.world._looks, core.threads)
 
     def step(self, ticks: int = 1) -> None:
@@ -85,9 +92,55 @@ class Simulation(Run):
         """Threads that step."""
         return self._core.threads
 
-    def save(self) -> _core.Save:
-        """Everything needed to continue exactly: states, orders that wait, tick, seed. It has `tick` and `seed`."""
-        return self._core.save()
+    def save(self, path: Union[None, str, os.PathLike] = None) -> _core.Save:
+        """Everything needed to continue exactly: states, orders that wait, tick, seed. It has `tick` and `seed`.
+
+        `pickle` keeps it, with its world.
+
+        Args:
+            path: of a file to write it to, too: that of `roboss run --save`, which `roboss run WORLD --from FILE`
+                continues, and `load`. It replaces a saved state, and nothing else.
+
+        Raises:
+            ArgumentError: the file is the world's (code "output-is-input"), or no saved state ("other-kind",
+                "not-a-saved-run").
+            SaveError: it cannot be written.
+        """
+        save = self._core.save()
+        if path is not None:
+            path = file_path("path", path)
+            check_output(path, "saved state", [self.world.file])
+            _core.may_save_to(path)
+            save.write(path, self.world.file, self.world._loaded)
+        return save
+
+    @classmethod
+    def load(cls, path: Union[str, os.PathLike], world: Optional[World] = None, *, threads: Optional[int] = None) -> Simulation:
+        """The simulation of a file that `save` or `roboss run --save` wrote, as it was, with the orders that waited.
+
+        Of a journal (`roboss run --journal`) it is the end; roboss.Journal goes to any time. Control programs of
+        `roboss run` are not started: the orders that they gave before are in the file, what they remember is not used.
+
+        Args:
+            path: of the file.
+            world: that it was saved of; None: the one in the file. Without its world file, that has no looks: nothing
+                is seen by cameras and views but the shapes that collide.
+            threads: of the Simulation.
+
+        Raises:
+            JournalError: there is no such file, it is no saved state, or it is damaged.
+            SaveError: it is of another world (code "other-world").
+        """
+        journal = _core.open_journal(file_path("path", path))
+        branch = journal.branches[-1]
+        model = journal.model(branch.id)
+        if world is None:
+            world = World(model, branch.world_file, (), loaded=journal.world_hash(branch.id))
+        elif instance("world", world, World, "give a World, or None").hash != model.hash:
+            raise SaveError(f"'{file_path('path', path)}' was saved of another world than '{world.name}'",
+                            "leave the world out, or give the one that it is of", "other-world")
+        core = journal.at(branch.id, world._model, branch.last_tick, branch.last_tick, True, threads_or_all(threads))
+        return Simulation._of(world, core)
 
     def restore(self, save: _core.Save) -> None:
         """Continues from a save of the same world, also one of another Simulation. Raises SaveError otherwise.
@@ -105,6 +158,11 @@ class Simulation(Run):
     def reset(self, seed: Optional[int] = None) -> None:
         """Back to the start of the world, without orders; with this seed of noise, None: the same one."""
         self._core.reset(None if seed is None else whole("seed", seed))
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        if self._batch is not None:
+            return operator.getitem, self._batch
+        return _simulation_of, (self.world, self.threads, self.save())
 
     def spawn(self, source: Union[World, str, os.PathLike], name: Union[None, str, Sequence[str]] = None,
               pose: ArrayLike = (0, 0, 0, 0, 0, 0, 1), *, on_ground: bool = False) -> Robots:
@@ -148,7 +206,9 @@ class Simulation(Run):
         frames = self.world._frames or [()] * before
         new = len(model.robots) - before
         looks = self.world._looks.with_copies(addition._looks, addition._model, names, poses)
-        self._continue(core, model, [*frames, *(list(addition._frames) or [()] * new) * len(names)], looks)
+        came = dict(zip(model.robots[before:], model.families[before:]))
+        edit = Edit(addition, tuple(names), came, poses)
+        self._continue(core, model, [*frames, *(list(addition._frames) or [()] * new) * len(names)], looks, edit)
         return Robots(self, range(before, before + new))
 
     def remove(self, robots: Union[str, Iterable[str], Robots]) -> None:
@@ -165,15 +225,16 @@ class Simulation(Run):
         names = robots.names if isinstance(robots, Robots) else [self.world.robots[n] for n in self.world._find(robots)]
         core, model, now = self._core.remove(list(names))
         frames = [frame for frame, new in zip(self.world._frames, now) if new >= 0]
-        self._continue(core, model, frames, self.world._looks)
+        self._continue(core, model, frames, self.world._looks, Edit(None, tuple(names)))
 
     def _may_change(self) -> None:
-        if self._in_batch:
-            raise StateError("the simulations of a Batch are all of one world", "use a Simulation", "in-batch")
+        if self._batch is not None:
+            raise StateError("a simulation of a Batch keeps its world", "use a Simulation", "in-batch")
 
-    def _continue(self, core: _core.Simulation, model: _core.Model, frames: list, looks: _core.Looks) -> None:
+    def _continue(self, core: _core.Simulation, model: _core.Model, frames: list, looks: _core.Looks, edit: Edit) -> None:
         """Goes on in another world."""
-        self.world = World(model, self.world.file, self.world.diagnostics, frames, looks)
+        self.world = World(model, self.world.file, self.world.diagnostics, frames, looks, loaded=self.world._loaded,
+                           source=self.world._source, edits=(*self.world._edits, edit))
         self._take(core)
         if self._view is not None:
             self._view._show()
@@ -208,3 +269,10 @@ class Simulation(Run):
 
     def __repr__(self) -> str:
         return f"<roboss.Simulation of '{self.world.name}' at {self.time:g} s: {len(self.world.robots)} robots>"
+
+
+def _simulation_of(world: World, threads: int, save: _core.Save) -> Simulation:
+    """The simulation of its parts, for pickle."""
+    simulation = Simulation(world, threads=threads)
+    simulation.restore(save)
+    return simulation

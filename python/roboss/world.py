@@ -6,23 +6,32 @@ import warnings
 from dataclasses import dataclass
 from fnmatch import fnmatchcase
 from pathlib import Path
-from typing import Iterable, Optional, Sequence, Union
+from typing import Any, Iterable, Optional, Sequence, Union
 
 from . import _core
 from .errors import ArgumentError, WorldError, WorldWarning
 from .names import file_path, flag, listed, names_of, real, text, unknown
+from .world_file import Edit, save_world
 
 _EXAMPLES = Path(__file__).parent / "program" / "share" / "roboss" / "worlds"
 
 
 class World:
-    """A compiled world: immutable, shared by all simulations of it. `load` makes one."""
+    """A compiled world: immutable, shared by all simulations of it. `load` makes one.
+
+    `pickle` keeps it whole, without its file. Its looks (colours and meshes, for views and cameras) are not in the
+    pickle: they are read from the file again, where that is still there and says the same.
+    """
 
     def __init__(self, model: _core.Model, file: str, diagnostics: tuple[_core.Diagnostic, ...],
-                 frames: Sequence[Sequence[tuple[str, int, list[float]]]] = (), looks: Optional[_core.Looks] = None):
+                 frames: Sequence[Sequence[tuple[str, int, list[float]]]] = (), looks: Optional[_core.Looks] = None, *,
+                 loaded: str = "", source: Optional[tuple[Any, ...]] = None, edits: tuple[Edit, ...] = ()):
         self._model = model
         self._frames = frames  # (name, link, pose on it) by robot
-        self._looks = looks or _core.Looks()  # colours and meshes, for views
+        self._known_looks = looks  # colours and meshes, for views; None: to be read from the source
+        self._loaded = loaded or model.hash  # hash of the world as its file has it; robots may have come and gone since
+        self._source = source  # what _core.load took; None: not known
+        self._edits = edits  # which robots came and went since
         self._types = model.types
         self._facts: dict[int, TypeFacts] = {}
         self.file: str = file  #: path that it was loaded from, or "<text>"
@@ -54,14 +63,58 @@ class World:
         """Names of the static shapes, "model::link::collision"."""
         return tuple(self._model.scenery)
 
+    def save(self, path: Union[str, os.PathLike]) -> None:
+        """Writes the world as an SDFormat file that loads to the same world, to the last bit: with the same `hash`.
+
+        It is the text or file that the world was loaded from (a WorldBuilder writes it, too), without the robots that
+        were removed and with those that were spawned, where they start. The file is loaded before it is put in place.
+
+        Raises:
+            WorldError: the world is of another format than SDFormat, or what was removed or spawned is no model of its
+                own in its file (code "no-text"); or the file would be another world (code "other-world"): options of
+                `load`, such as `dt` or `ground`, are not written.
+            ArgumentError: the path is a file that the world was loaded from (code "output-is-input"), or of another
+                kind ("other-kind").
+            OSError: the folder cannot be written.
+
+        >>> import os, tempfile
+        >>> sim = roboss.Simulation(roboss.example("crossroads.sdf"))
+        >>> sim.remove("car_1*")
+        >>> with tempfile.TemporaryDirectory() as folder:
+        ...     sim.world.save(os.path.join(folder, "edited.sdf"))
+        ...     roboss.load(os.path.join(folder, "edited.sdf")).hash == sim.world.hash
+        True
+        """
+        names = list(self.robots)
+        start = _core.robots([_core.Simulation(self._model, 1, 0)], list(range(len(names)))).pose(True) if names else []
+        save_world(self, path, {name: pose.tolist() for name, pose in zip(names, start)})
+
+    @property
+    def _looks(self) -> _core.Looks:
+        if self._known_looks is None:
+            self._known_looks = _looks_of(self._source, self._loaded)
+        return self._known_looks
+
+    def __copy__(self) -> World:
+        return self
+
+    def __deepcopy__(self, memo: dict[int, Any]) -> World:
+        return self
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return _world_of, (self._model, self.file, self.diagnostics, self._frames, self._loaded, self._source)
+
     def __repr__(self) -> str:
         return f"<roboss.World '{self.name}' from {self.file}: {len(self.robots)} robots, dt={self.dt} s>"
 
-    def _find(self, wanted: Union[str, Iterable[str]]) -> list[int]:
-        """Numbers of the robots that match a pattern or are named."""
+    def _find(self, wanted: Union[str, Iterable[str]], none: Optional[list[int]] = None) -> list[int]:
+        """Numbers of the robots that match a pattern or are named. `none`: where no robot matches a pattern; None: an
+        error."""
         names = self.robots
         if isinstance(wanted, str):
             ids = [number for number, name in enumerate(names) if fnmatchcase(name, wanted)]
+            if not ids and none is not None:
+                return none
             if not ids:
                 raise unknown("robot", wanted, names)
         else:
@@ -83,6 +136,21 @@ class World:
     def _facts_of_set(self, robots: Sequence[int]) -> TypeFacts:
         """What these robots, at least one, have in common."""
         return TypeFacts(**_core.facts_of(self._model, list(robots)))
+
+
+def _world_of(model: _core.Model, file: str, diagnostics: tuple[_core.Diagnostic, ...],
+              frames: Sequence[Sequence[tuple[str, int, list[float]]]], loaded: str, source: Optional[tuple[Any, ...]]) -> World:
+    """The world of its parts, for pickle."""
+    return World(model, file, diagnostics, frames, loaded=loaded, source=source)
+
+
+def _looks_of(source: Optional[tuple[Any, ...]], wanted: str) -> _core.Looks:
+    """The looks of the world that the source says, if that still has this hash; else none."""
+    if source is not None and (source[1] or os.path.isfile(source[0])):
+        model, _, _, looks = _core.load(*source)
+        if model is not None and model.hash == wanted:
+            return looks
+    return _core.Looks()
 
 
 @dataclass(frozen=True)
@@ -146,12 +214,12 @@ def load(source: Union[str, os.PathLike], *, search_paths: Iterable[Union[str, o
         raise ArgumentError(f"a precision of {precision!r}", "give 'double', 'float' or None")
     source = file_path("source", source)
     is_text = source.lstrip().startswith("<")
-    model, findings, frames, looks = _core.load(
-        source, is_text, [file_path("search_paths", path) for path in listed("search_paths", search_paths)],
-        text("profile", profile), flag("ground", ground), names_of("fixed_base", listed("fixed_base", fixed_base)),
-        None if dt is None else real("dt", dt), None if sleep is None else flag("sleep", sleep),
-        text("accuracy", accuracy), None if precision is None else precision == "float", flag("on_ground", on_ground),
-        text("keyframe", keyframe))
+    options = ([file_path("search_paths", path) for path in listed("search_paths", search_paths)],
+               text("profile", profile), flag("ground", ground), names_of("fixed_base", listed("fixed_base", fixed_base)),
+               None if dt is None else real("dt", dt), None if sleep is None else flag("sleep", sleep),
+               text("accuracy", accuracy), None if precision is None else precision == "float",
+               flag("on_ground", on_ground), text("keyframe", keyframe))
+    model, findings, frames, looks = _core.load(source, is_text, *options)
     errors = [finding for finding in findings if finding.severity == "error"]
     if model is None or (flag("strict", strict) and errors):
         file = "the text" if is_text else f"'{source}'"
@@ -161,7 +229,8 @@ def load(source: Union[str, os.PathLike], *, search_paths: Iterable[Union[str, o
     for finding in findings:
         if finding.severity != "note":
             warnings.warn(str(finding), WorldWarning, stacklevel=2)
-    return World(model, "<text>" if is_text else source, tuple(findings), frames, looks)
+    return World(model, "<text>" if is_text else source, tuple(findings), frames, looks,
+                 source=(source if is_text else os.path.abspath(source), is_text, *options))
 
 
 def example(name: str) -> str:

@@ -1,4 +1,4 @@
-// Many simulations of one world on one pool of threads.
+// Many simulations, of one world or of several, on one pool of threads.
 #include <nanobind/stl/shared_ptr.h>
 #include <nanobind/stl/vector.h>
 
@@ -17,14 +17,13 @@ struct Batch {
     Simulations simulations;  // one for each run
 };
 
-Batch make_batch(std::shared_ptr<const Model> model, std::size_t count, unsigned threads,
+Batch make_batch(const std::vector<std::shared_ptr<const Model>>& models, unsigned threads,
                  std::uint64_t seed) {
     Batch batch;
-    batch.runs =
-        value_or_raise(LocalBatch::create(model, count, {.threads = threads, .seed = seed}), "WorldError");
-    for (std::size_t i = 0; i < count; ++i) {
+    batch.runs = value_or_raise(LocalBatch::create(models, {.threads = threads, .seed = seed}), "WorldError");
+    for (std::size_t i = 0; i < models.size(); ++i) {
         const std::shared_ptr<LocalRun> run(batch.runs, &batch.runs->run(i));
-        batch.simulations.push_back(std::make_shared<Simulation>(model, run));
+        batch.simulations.push_back(std::make_shared<Simulation>(models[i], run));
         batch.simulations.back()->set_batch(batch.runs);
     }
     return batch;
@@ -48,7 +47,7 @@ void bind_batch(nb::module_& module) {
         .def("step", &step_batch, nb::arg("ticks"))
         .def_prop_ro("threads", [](const Batch& batch) { return batch.runs->threads(); })
         .def_ro("simulations", &Batch::simulations);
-    module.def("batch", &make_batch, nb::arg("model"), nb::arg("count"), nb::arg("threads"), nb::arg("seed"));
+    module.def("batch", &make_batch, nb::arg("models"), nb::arg("threads"), nb::arg("seed"));
 }
 
 }  // namespace roboss_python

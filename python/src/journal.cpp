@@ -31,6 +31,8 @@ LocalSave save_of(const Model& model, const SavedRun& run) {
     LocalSave save{model.hash, run.seed, run.tick, run.states, {}, 0};
     for (const LoggedOrder& logged : run.orders) save.orders.push_back(logged.order);
     std::ranges::stable_sort(save.orders, comes_before);
+    for (const Order& order : save.orders)  // orders of this program follow its earlier ones
+        if (order.client == ClientId(0U)) save.given = std::max(save.given, order.sequence + 1);
     return save;
 }
 
@@ -108,6 +110,12 @@ void bind_journal(nb::module_& module) {
             "model",
             [](const Journal& j, BranchId id) {
                 return value_or_raise(j.model(value_or_raise(j.branch(id), "JournalError")), "JournalError");
+            },
+            nb::arg("branch"))
+        .def(
+            "world_hash",
+            [](const Journal& j, BranchId id) {
+                return hex(j.world_hash(value_or_raise(j.branch(id), "JournalError")));
             },
             nb::arg("branch"))
         .def("checkpoints", &checkpoints, nb::arg("branch"))

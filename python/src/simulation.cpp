@@ -129,8 +129,6 @@ Edited remove(Simulation& simulation, const std::vector<std::string>& names) {
 }  // namespace
 
 void bind_simulation(nb::module_& module) {
-    nb::class_<LocalSave>(module, "Save").def_ro("tick", &LocalSave::tick).def_ro("seed", &LocalSave::seed);
-
     nb::class_<Simulation>(module, "Simulation")
         .def(
             "__init__",
@@ -147,11 +145,14 @@ void bind_simulation(nb::module_& module) {
         .def_prop_ro("threads", [](Simulation& s) { return s.run().threads(); })
         .def_prop_ro("hash", &hash_of)
         .def("contacts", &contacts)
-        .def("save", [](Simulation& s) { return s.run().save(); })
+        .def("save",
+             [](Simulation& s) {
+                 return Saved{s.model(), s.run().save()};
+             })
         .def(
             "restore",
-            [](Simulation& s, const LocalSave& save) {
-                if (const Result<> restored = s.run().restore(save); !restored)
+            [](Simulation& s, const Saved& saved) {
+                if (const Result<> restored = s.run().restore(saved.save); !restored)
                     raise("SaveError", restored.error());
                 s.refresh();
             },

@@ -98,6 +98,12 @@ class Simulation {
 
 using Simulations = std::vector<std::shared_ptr<Simulation>>;
 
+/// What a run continues from, and the world that it is of.
+struct Saved {
+    std::shared_ptr<const roboss::Model> model;
+    roboss::LocalSave save;
+};
+
 /// Calls work() without the GIL, while the simulations are busy, and returns what it returns.
 template <class Work>
 auto without_gil(const Simulations& simulations, Work work) {

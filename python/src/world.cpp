@@ -191,6 +191,12 @@ nb::dict facts_of(const std::shared_ptr<const Model>& model, const std::vector<s
     return facts;
 }
 
+std::vector<std::uint32_t> families_of(const Model& model) {
+    std::vector<std::uint32_t> families;
+    for (const Robot& robot : model.robots) families.push_back(robot.family);
+    return families;
+}
+
 std::vector<std::size_t> types_of(const Model& model) {
     std::vector<std::size_t> types;
     for (const Robot& robot : model.robots) types.push_back(robot.type.index());
@@ -201,6 +207,18 @@ std::vector<std::size_t> types_of(const Model& model) {
 
 void bind_world(nb::module_& module) {
     nb::class_<Diagnostic>(module, "Diagnostic")
+        .def(
+            "__init__",
+            [](Diagnostic* self, const std::string& severity, std::string file, int line, std::string code,
+               std::string message, std::string remedy) {
+                const Severity how = severity == "error"     ? Severity::kError
+                                     : severity == "warning" ? Severity::kWarning
+                                                             : Severity::kNote;
+                new (self) Diagnostic{
+                    how, {std::move(file), line}, std::move(code), std::move(message), std::move(remedy)};
+            },
+            nb::arg("severity"), nb::arg("file"), nb::arg("line"), nb::arg("code"), nb::arg("message"),
+            nb::arg("remedy"))
         .def_prop_ro("severity", [](const Diagnostic& d) { return std::string(to_text(d.severity)); })
         .def_prop_ro("file", [](const Diagnostic& d) { return d.where.file; })
         .def_prop_ro("line", [](const Diagnostic& d) { return d.where.line; })
@@ -217,7 +235,9 @@ void bind_world(nb::module_& module) {
                      [](const Model& m) { return nb::make_tuple(m.gravity.x, m.gravity.y, m.gravity.z); })
         .def_prop_ro("robots", [](const Model& m) { return names_of(m.robots); })
         .def_prop_ro("types", &types_of)
-        .def_prop_ro("scenery", [](const Model& m) { return names_of(m.statics); });
+        .def_prop_ro("families", &families_of)
+        .def_prop_ro("scenery", [](const Model& m) { return names_of(m.statics); })
+        .def("__deepcopy__", [](const std::shared_ptr<const Model>& m, const nb::dict&) { return m; });
     module.def("facts_of", &facts_of, nb::arg("model"), nb::arg("robots"));
 
     module.def(

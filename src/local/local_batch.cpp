@@ -5,10 +5,15 @@ namespace roboss {
 
 Result<std::unique_ptr<LocalBatch>> LocalBatch::create(std::shared_ptr<const Model> model, std::size_t count,
                                                        const LocalRunOptions& options) {
+    return create(std::vector(count, std::move(model)), options);
+}
+
+Result<std::unique_ptr<LocalBatch>> LocalBatch::create(
+    const std::vector<std::shared_ptr<const Model>>& models, const LocalRunOptions& options) {
     std::unique_ptr<LocalBatch> batch(new LocalBatch(options.threads));
-    for (std::size_t i = 0; i < count; ++i) {
+    for (std::size_t i = 0; i < models.size(); ++i) {
         Result<std::unique_ptr<LocalRun>> run =
-            LocalRun::create(model, {.threads = 1, .lanes = options.lanes, .seed = options.seed + i});
+            LocalRun::create(models[i], {.threads = 1, .lanes = options.lanes, .seed = options.seed + i});
         if (!run) return run.error();
         batch->runs_.push_back(std::move(run).value());
     }

@@ -1,5 +1,5 @@
-// LocalBatch: many runs of one world on one pool of threads, each stepped by one thread at a time. For
-// learning and sampling: small worlds, many of them.
+// LocalBatch: many runs, of one world or of several, on one pool of threads, each stepped by one thread at a
+// time. For learning and sampling: small worlds, many of them.
 #pragma once
 
 #include <functional>
@@ -15,6 +15,10 @@ class LocalBatch {
     /// `count` runs at the beginning of the world; run i has the seed options.seed + i. `options.threads`
     /// step them. Errors: those of LocalRun::create().
     static Result<std::unique_ptr<LocalBatch>> create(std::shared_ptr<const Model> model, std::size_t count,
+                                                      const LocalRunOptions& options = {});
+
+    /// The same, run i of models[i].
+    static Result<std::unique_ptr<LocalBatch>> create(const std::vector<std::shared_ptr<const Model>>& models,
                                                       const LocalRunOptions& options = {});
 
     std::size_t size() const { return runs_.size(); }        ///< how many runs

@@ -269,6 +269,19 @@ TEST(LocalBatch, EachRunGoesItsOwnWayWithTheBitsOfARunAlone) {
     EXPECT_LT(batch->run(2).tick(), 150);
 }
 
+TEST(LocalBatch, RunsOfDifferentWorldsHaveTheBitsOfRunsAlone) {
+    const std::vector<std::shared_ptr<const Model>> models{crowd(6), crowd(2), crowd(3)};
+    const std::unique_ptr<LocalBatch> batch = LocalBatch::create(models, {.threads = 2, .seed = 4}).value();
+    ASSERT_EQ(batch->size(), 3U);
+    for (const Result<>& result : batch->step(100)) EXPECT_TRUE(result.ok());
+    for (std::size_t i = 0; i < models.size(); ++i) {
+        const auto alone = run_of(models[i]);
+        ASSERT_TRUE(alone->step(100).ok());
+        EXPECT_EQ(batch->run(i).seed(), 4 + i);
+        EXPECT_EQ(batch->run(i).hash(), alone->hash());
+    }
+}
+
 TEST(RobotSet, SetsJointsAtOnceAndForAllRobotsOrNone) {
     const auto model = crowd(2);
     const auto run = run_of(model);

@@ -13,7 +13,9 @@
 
 namespace roboss {
 
+/// The Model as bytes.
 std::vector<std::uint8_t> encode_model(const Model& model);
+/// The Model of bytes that encode_model() gave, or an Error.
 Result<std::shared_ptr<const Model>> decode_model(std::span<const std::uint8_t> bytes);
 
 /// A hash of any bytes, to notice damage.
