@@ -20,6 +20,7 @@ from .camera import Camera, RobotCameras
 from .builder import ModelBuilder, WorldBuilder
 from .errors import (ArgumentError, ClusterError, JournalError, OrderError, RobossError, SaveError, SensorError,
                      StateError, UnknownNameError, ViewError, WorldError, WorldWarning)
+from .joint_parameters import JointParameters
 from .journal import Journal
 from .kinematics import Follower, IKSolution, RobotModel
 from .mujoco_order import MujocoOrder
@@ -35,9 +36,10 @@ from .world import World, example, load
 
 __version__ = "0.2.0"
 __all__ = [
-    "ArgumentError", "Batch", "CONTACT", "Camera", "CartesianTrajectory", "ClusterError", "Diagnostic", "Follower",
-    "IKSolution", "JointTrajectory", "Journal", "JournalError", "Message", "ModelBuilder", "MujocoOrder", "OrderError",
-    "Radio", "RobossError", "RemoteSimulation", "RobotCameras", "RobotModel", "Robots", "Save", "SaveError", "Sensor",
-    "SensorError", "Simulation", "StateError", "UnknownNameError", "View", "ViewError", "World", "WorldBuilder",
-    "WorldError", "WorldWarning", "connect", "ctraj", "example", "jtraj", "load",
+    "ArgumentError", "Batch", "CONTACT", "Camera", "CartesianTrajectory", "ClusterError", "Diagnostic",
+    "Follower", "IKSolution", "JointParameters", "JointTrajectory", "Journal", "JournalError", "Message",
+    "ModelBuilder", "MujocoOrder", "OrderError", "Radio", "RobossError", "RemoteSimulation", "RobotCameras",
+    "RobotModel", "Robots", "Save", "SaveError", "Sensor", "SensorError", "Simulation", "StateError",
+    "UnknownNameError", "View", "ViewError", "World", "WorldBuilder", "WorldError", "WorldWarning", "connect",
+    "ctraj", "example", "jtraj", "load",
 ]
