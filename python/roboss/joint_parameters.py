@@ -1,7 +1,7 @@
 """JointParameters: numbers of the joints of some robots that may differ from robot to robot and change."""
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Iterable, Iterator, Optional, Union
+from typing import TYPE_CHECKING, Iterable, Iterator, Union
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -94,9 +94,9 @@ class JointParameters:
             values: by the name of the parameter, (N, joints); one row for all robots; one number.
 
         >>> arm = roboss.Simulation(roboss.example("arm.sdf")).robots("arm")
-        >>> arm.parameters.set(["elbow", "shoulder_pan"], lower=-1.0, upper=[0.5, 1.5])
+        >>> arm.parameters.set(["elbow", "yaw"], lower=-1.0, upper=[0.5, 1.5])
         >>> arm.parameters["upper"][0, :3]
-        array([1.5       , 6.28318531, 0.5       ])
+        array([1.5, 1.9, 0.5])
         """
         self._set(joints, values)
 
@@ -130,5 +130,5 @@ class JointParameters:
         return out
 
 
-def _number(name: Optional[str]) -> int:
+def _number(name: str) -> int:
     return index_of("parameter", text("name", name), _NAMES, " of joints")

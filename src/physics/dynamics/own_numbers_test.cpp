@@ -103,8 +103,12 @@ struct Scene {
 };
 
 std::vector<Scene> scenes() {
-    ModelSpec closed = four_bar();
-    closed.joints[3].axes[0].max_effort = 10;
+    ModelSpec closed = four_bar();  // which joint its loop is cut at hangs on the numbers that its joints have
+    for (std::size_t j = 0; j < closed.joints.size(); ++j) {
+        Values others = some_numbers(j, true);
+        for (JointParameterValue& one : others) one.value *= 1.5;
+        write(others, closed.joints[j].axes[0]);
+    }
     return {{"spiders", with_balls(spider(), 0.02), 0.0},
             {"arms", arm(), 2.0},
             {"cars", car(), 0.001},
@@ -303,19 +307,24 @@ TEST(OwnNumbers, GainsGiveTheStepResponseOfAPdMotor) {
     }
 }
 
+/// Implicit Euler without damping passes the target by J / (kp dt^2) once, and then loses the square root of
+/// that share in each tick; with damping it comes from one side.
 TEST(OwnNumbers, AGainFarBeyondTheTickNeitherExplodesNorRings) {
-    for (const double kd : {0.0, 1e3}) {
+    for (const double kd : {0.0, 1e3, 1e6}) {
         Rod rod(1e-2);
         rod.set({{kPositionGain, 1e6}, {kVelocityGain, kd}});
         rod.drive(MotorMode::kPosition, 1);
-        double before = rod.q();
-        for (int i = 0; i < 300; ++i) {
+        const double share = rod.inertia / (1e6 * 1e-4);
+        double highest = 0;
+        for (int i = 0; i < 1000; ++i) {
             rod.sim->step();
-            ASSERT_GE(rod.q(), before - 1e-6) << "tick " << i;
-            ASSERT_LE(rod.q(), 1 + 1e-4) << "tick " << i;
-            before = rod.q();
+            highest = std::max(highest, rod.q());
+            if (kd == 0 && i >= 6) {
+                ASSERT_NEAR(rod.q(), 1, 1e-6) << "tick " << i;
+            }
         }
-        EXPECT_NEAR(rod.q(), 1, 1e-4);
+        EXPECT_LT(highest - 1, kd == 0 ? share : 0.1 * share) << kd;
+        EXPECT_NEAR(rod.q(), 1, 1e-4) << kd;
     }
 }
 
