@@ -10,6 +10,7 @@ from . import _core
 from .camera import RobotCameras
 from .errors import ArgumentError, StateError, UnknownNameError
 from .mujoco_order import MujocoOrder
+from .joint_parameters import JointParameters
 from .names import filled, index_of, names_of, numbers, real, text, unknown, whole
 from .radio import Radio
 from .sensors import Sensor
@@ -284,8 +285,21 @@ class Robots:
         self._core.touching(out)
         return out
 
+    @property
+    def parameters(self) -> JointParameters:
+        """Numbers of the joints that may differ from robot to robot and change: damping, springs, gains, limits ...
+
+        >>> sim = roboss.Simulation(roboss.example("crossroads.sdf"))
+        >>> cars = sim.robots("car_*")
+        >>> cars.parameters["damping"] = np.linspace(0, 0.3, 16)[:, None]   # N m s/rad, another in each car
+        >>> cars[15].parameters["damping"]
+        array([[0.3, 0.3, 0.3, 0.3]])
+        """
+        return JointParameters(self)
+
     def set_joint_targets(self, targets: ArrayLike, joints: Union[str, Iterable[str], None] = None, *,
-                          mode: str = "velocity", max_effort: Optional[float] = None) -> None:
+                          mode: str = "velocity", max_effort: Optional[float] = None,
+                          position_gain: Optional[ArrayLike] = None, velocity_gain: Optional[ArrayLike] = None) -> None:
         """Orders setpoints of motors, from the next tick on; they hold until the next ones.
 
         Args:
@@ -293,6 +307,10 @@ class Robots:
             joints: names of the columns of `targets`; None: all joints.
             mode: "velocity", "position", "effort", or "passive" (motor off).
             max_effort: bound in N m or N; None: the joint's own.
+            position_gain: kp in N m/rad or N/m, (N, joints) as `targets`; a motor with it goes to its position by
+                kp (target - position) - kd velocity, both at the end of the tick: stable at any gain. 0 is as stiff
+                as the solver allows. None: it stays. It becomes the robots' own `parameters["position_gain"]`.
+            velocity_gain: kd in N m s/rad or N s/m, likewise; in the mode "velocity" of kd (target - velocity).
 
         >>> sim = roboss.Simulation(roboss.example("crossroads.sdf"))
         >>> cars = sim.robots("car_*")
@@ -306,8 +324,10 @@ class Robots:
         columns = [self._number("joint", name, facts.axes, lambda own: own.axes) for name in names]
         if mode not in _MODES:
             raise unknown("motor mode", mode, _MODES)
+        gains = [None if gain is None else self._fill(what, gain, len(columns))
+                 for what, gain in (("position_gain", position_gain), ("velocity_gain", velocity_gain))]
         self._core.set_joints(columns, _MODES.index(mode), self._fill("targets", targets, len(columns)),
-                              -1.0 if max_effort is None else real("max_effort", max_effort, 0))
+                              -1.0 if max_effort is None else real("max_effort", max_effort, 0), *gains)
 
     def apply_wrench(self, wrench: ArrayLike, link: Optional[str] = None, *, ticks: int = 1) -> None:
         """Pushes a link of each robot for `ticks` ticks from the next one on; wrenches add up.

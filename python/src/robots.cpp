@@ -2,6 +2,8 @@
 // again in C++.
 #include <nanobind/stl/optional.h>
 #include <nanobind/stl/shared_ptr.h>
+#include <nanobind/stl/string.h>
+#include <nanobind/stl/tuple.h>
 #include <nanobind/stl/vector.h>
 
 #include <array>
@@ -96,6 +98,12 @@ void touching(Robots& robots, const nb::ndarray<bool, nb::c_contig, nb::device::
     });
 }
 
+/// Raises the first refusal, after all that was done is seen.
+void finish_change(Robots& robots, const Result<>& done) {
+    for (const auto& simulation : robots.simulations) simulation->refresh();
+    raise_if_refused(done);
+}
+
 /// A method that sets something from an array.
 template <Result<> (RobotSet::*Set)(RunAccess&, std::span<const double>) const>
 void set(Robots& robots, const In& values) {
@@ -103,8 +111,51 @@ void set(Robots& robots, const In& values) {
     robots.for_each(numbers(values), [&](RunAccess& run, std::span<const double> part) {
         if (done) done = (robots.set().*Set)(run, part);
     });
-    for (const auto& simulation : robots.simulations) simulation->refresh();
-    raise_if_refused(done);
+    finish_change(robots, done);
+}
+
+void set_joints(Robots& robots, const std::vector<std::size_t>& columns, std::uint32_t mode,
+                const In& targets, double max_effort, const MaybeIn& position_gain,
+                const MaybeIn& velocity_gain) {
+    const std::span<const double> all = numbers(targets);
+    const auto part_of = [&](const MaybeIn& gain, std::span<const double> part) {
+        const std::span<const double> values = numbers(gain);
+        if (values.empty()) return values;
+        return values.subspan(static_cast<std::size_t>(part.data() - all.data()), part.size());
+    };
+    robots.for_each(all, [&](RunAccess& run, std::span<const double> part) {
+        raise_if_refused(
+            robots.set().set_joints(run, columns, static_cast<MotorMode>(mode), part, max_effort,
+                                    {part_of(position_gain, part), part_of(velocity_gain, part)}));
+    });
+}
+
+void fill_parameters(Robots& robots, std::size_t parameter, bool of_file, const Out& out) {
+    const auto which = static_cast<JointParameter>(parameter);
+    robots.for_each(numbers(out), [&](RunAccess& run, std::span<double> part) {
+        if (of_file)
+            robots.set().file_parameters(which, part);
+        else
+            robots.set().joint_parameters(run, which, part);
+    });
+}
+
+void set_parameters(Robots& robots, const std::vector<std::size_t>& columns,
+                    const std::vector<std::size_t>& parameters, const In& values) {
+    std::vector<JointParameter> which;
+    for (const std::size_t parameter : parameters) which.push_back(static_cast<JointParameter>(parameter));
+    Result<> done = Ok{};
+    robots.for_each(numbers(values), [&](RunAccess& run, std::span<const double> part) {
+        if (done) done = robots.set().set_joint_parameters(run, columns, which, part);
+    });
+    finish_change(robots, done);
+}
+
+void reset_parameters(Robots& robots, const std::vector<std::size_t>& columns) {
+    Result<> done = Ok{};
+    for (const auto& simulation : robots.simulations)
+        if (done) done = robots.set().reset_joint_parameters(simulation->access(), columns);
+    finish_change(robots, done);
 }
 
 Robots make_robots(Simulations simulations, const std::vector<std::uint32_t>& ids) {
@@ -131,16 +182,12 @@ void bind_robots(nb::module_& module) {
         .def("set_twists", &set<&RobotSet::set_twists>, nb::arg("twists"))
         .def("set_joint_positions", &set<&RobotSet::set_joint_positions>, nb::arg("positions"))
         .def("set_joint_velocities", &set<&RobotSet::set_joint_velocities>, nb::arg("velocities"))
-        .def(
-            "set_joints",
-            [](Robots& r, const std::vector<std::size_t>& columns, std::uint32_t mode, const In& targets,
-               double max_effort) {
-                r.for_each(numbers(targets), [&](RunAccess& run, std::span<const double> part) {
-                    raise_if_refused(
-                        r.set().set_joints(run, columns, static_cast<MotorMode>(mode), part, max_effort));
-                });
-            },
-            nb::arg("columns"), nb::arg("mode"), nb::arg("targets"), nb::arg("max_effort"))
+        .def("set_joints", &set_joints, nb::arg("columns"), nb::arg("mode"), nb::arg("targets"),
+             nb::arg("max_effort"), nb::arg("position_gain").none(), nb::arg("velocity_gain").none())
+        .def("joint_parameters", &fill_parameters, nb::arg("parameter"), nb::arg("of_file"), nb::arg("out"))
+        .def("set_joint_parameters", &set_parameters, nb::arg("columns"), nb::arg("parameters"),
+             nb::arg("values"))
+        .def("reset_joint_parameters", &reset_parameters, nb::arg("columns"))
         .def(
             "apply_wrenches",
             [](Robots& r, std::optional<std::size_t> link, const In& wrenches, Tick ticks) {
@@ -157,6 +204,10 @@ void bind_robots(nb::module_& module) {
                 });
             },
             nb::arg("channel"), nb::arg("values"), nb::arg("rows"));
+    std::vector<std::tuple<std::string, std::string, std::string>> parameters;
+    for (const JointParameterInfo& row : joint_parameters())
+        parameters.emplace_back(row.name, row.turning, row.sliding);
+    module.attr("joint_parameters") = parameters;  // name, unit of axes that turn, unit of those that slide
     module.def("robots", &make_robots, nb::arg("simulations"), nb::arg("ids"));
 }
 

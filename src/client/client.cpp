@@ -127,15 +127,27 @@ Twist Client::twist(const RobotRef& robot, const LinkRef& link) const {
     return link_twist(model().type_of(id), state_with(StatePart::kTwist, id), this->link(id, link));
 }
 
-JointState Client::joint(const RobotRef& robot, const JointRef& joint, int axis) const {
-    const RobotId id = this->robot(robot);
-    const RobotType& type = model().type_of(id);
-    const JointId known_joint = joint_id(id, joint);
-    const Joint& info = type.joints[known_joint.index()];
+/// The joint, if it has such an axis.
+const Joint& Client::axis_of_joint(RobotId id, const JointRef& joint, int axis) const {
+    const Joint& info = model().type_of(id).joints[joint_id(id, joint).index()];
     if (axis < 0 || axis >= info.nv)
         refuse("joint '" + info.name + "' of " + called(known(id)) + " has no axis " + std::to_string(axis),
                "it has " + std::to_string(info.nv) + " degrees of freedom, counted from 0");
-    return joint_state(type, state_with(StatePart::kJoints, id), known_joint, axis);
+    return info;
+}
+
+JointState Client::joint(const RobotRef& robot, const JointRef& joint, int axis) const {
+    const RobotId id = this->robot(robot);
+    (void)axis_of_joint(id, joint, axis);
+    return joint_state(model().type_of(id), state_with(StatePart::kJoints, id), joint_id(id, joint), axis);
+}
+
+double Client::joint_parameter(const RobotRef& robot, const JointRef& joint, JointParameter parameter,
+                               int axis) const {
+    const RobotId id = this->robot(robot);
+    const RobotType& type = model().type_of(id);
+    const Joint& info = axis_of_joint(id, joint, axis);
+    return dof_of(type, state(id), info, axis).*info_of(parameter).member;
 }
 
 OrderResult Client::set_pose(const RobotRef& robot, const Pose& X_WR) {
@@ -181,6 +193,19 @@ OrderResult Client::set_joint_state(const RobotRef& robot, const JointRef& joint
     const RobotId id = id_for_order(robot);
     const JointId known_joint = joint.named() ? joint_id(id, joint) : joint.id();
     return order(id, SetJointState{known_joint, std::move(position), std::move(velocity)});
+}
+
+OrderResult Client::set_joint_parameters(const RobotRef& robot, const JointRef& joint,
+                                         std::vector<JointParameterValue> values, int axis) {
+    const RobotId id = id_for_order(robot);
+    const JointId known_joint = joint.named() ? joint_id(id, joint) : joint.id();
+    return order(id, SetJointParameters{known_joint, axis, false, std::move(values)});
+}
+
+OrderResult Client::reset_joint_parameters(const RobotRef& robot, const JointRef& joint, int axis) {
+    const RobotId id = id_for_order(robot);
+    const JointId known_joint = joint.named() ? joint_id(id, joint) : joint.id();
+    return order(id, SetJointParameters{known_joint, axis, true, {}});
 }
 
 OrderResult Client::command(const RobotRef& robot, const std::string& name, std::vector<double> values) {

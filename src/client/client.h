@@ -56,6 +56,10 @@ class Client : private SensorSources {
     /// Of any joint, those that close a loop included.
     JointState joint(const RobotRef& robot, const JointRef& joint, int axis = 0) const;
 
+    /// One number of an axis of a joint: the robot's own, or its type's.
+    double joint_parameter(const RobotRef& robot, const JointRef& joint, JointParameter parameter,
+                           int axis = 0) const;
+
     // --- ids of names, for programs that look them up once. Each throws if there is no such name or id.
     RobotId robot(const RobotRef& robot) const;          ///< id of a robot
     const RobotType& type(const RobotRef& robot) const;  ///< its links, joints, sensors and commands
@@ -96,6 +100,13 @@ class Client : private SensorSources {
     /// ("loop-joint").
     OrderResult set_joint_state(const RobotRef& robot, const JointRef& joint, std::vector<double> position,
                                 std::vector<double> velocity = {});
+    /// Gives the robot own numbers of one axis of a joint: damping, springs, gains and bounds of its motor,
+    /// limits (model/joint_parameters.h has names and units). Those that are not named stay; the two limits
+    /// come together.
+    OrderResult set_joint_parameters(const RobotRef& robot, const JointRef& joint,
+                                     std::vector<JointParameterValue> values, int axis = 0);
+    /// All numbers of the axis are those of its type again.
+    OrderResult reset_joint_parameters(const RobotRef& robot, const JointRef& joint, int axis = 0);
     /// Latches a command of the robot's on-board controllers, e.g. "cmd_vel"; `roboss check` lists names,
     /// values and units. Of a list: row by row.
     OrderResult command(const RobotRef& robot, const std::string& name, std::vector<double> values);
@@ -210,6 +221,7 @@ class Client : private SensorSources {
     /// Keeps a refusal for the report of the run.
     virtual Error report_refusal(Error error) { return error; }
     RobotId id_for_order(const RobotRef& robot) const;
+    const Joint& axis_of_joint(RobotId robot, const JointRef& joint, int axis) const;
     LinkId link_for_order(RobotId robot, const LinkRef& link) const;
     RobotId robot_named(const std::string& name) const;
     Sample sample(RobotId robot, const SensorRef& sensor, const SensorKind& asked);

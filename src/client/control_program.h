@@ -38,7 +38,7 @@ class ControlProgram {
 };
 
 /// Version of this interface; the loader refuses a library built against another one.
-inline constexpr int kControlProgramAbi = 13;
+inline constexpr int kControlProgramAbi = 14;
 
 }  // namespace roboss
 

@@ -36,6 +36,17 @@ void add_energy(const Model& model, const RobotType& type, const RobotState& sta
     if (link.gravity) energy[1] -= link.mass * dot(model.gravity, X_WL.p + p_LC_W);
 }
 
+/// Limits are ordered together: of an order with one, the other as it is.
+void add_other_limit(const RobotType& type, const RobotState& state, SetJointParameters& own) {
+    const Dof& now = dof_of(type, state, type.joints[own.joint.index()], own.axis);
+    const auto has = [&](JointParameter parameter) {
+        return std::ranges::count(own.values, parameter, &JointParameterValue::parameter) > 0;
+    };
+    const bool lower = has(JointParameter::kLower), upper = has(JointParameter::kUpper);
+    if (lower && !upper) own.values.push_back({JointParameter::kUpper, now.upper});
+    if (upper && !lower) own.values.push_back({JointParameter::kLower, now.lower});
+}
+
 /// Whether this is scenery that carries robot A: the normal is within 45 degrees of the vertical.
 bool carries(const ContactReport& contact, const Vec3& gravity) {
     return !contact.robot_b.valid() && dot(contact.normal, gravity) < -std::sqrt(0.5) * norm(gravity);
@@ -98,6 +109,27 @@ void RobotSet::joint_efforts(const RunAccess& run, std::span<double> out) const 
             *to++ = motor_effort(*model_, type_of_row(i), run.state(robots_[i]), axis.joint, axis.axis);
 }
 
+void RobotSet::joint_parameters(const RunAccess& run, JointParameter parameter, std::span<double> out) const {
+    ROBOSS_CHECK(out.size() == size() * axes().size(), std::to_string(out.size()) + " numbers");
+    double* to = out.data();
+    for (std::size_t i = 0; i < size(); ++i)
+        for (const JointAxis& axis : axes_of_row(i)) {
+            const RobotType& type = type_of_row(i);
+            const Joint& joint = type.joints[axis.joint.index()];
+            *to++ = dof_of(type, run.state(robots_[i]), joint, axis.axis).*info_of(parameter).member;
+        }
+}
+
+void RobotSet::file_parameters(JointParameter parameter, std::span<double> out) const {
+    ROBOSS_CHECK(out.size() == size() * axes().size(), std::to_string(out.size()) + " numbers");
+    double* to = out.data();
+    for (std::size_t i = 0; i < size(); ++i)
+        for (const JointAxis& axis : axes_of_row(i)) {
+            const RobotType& type = type_of_row(i);
+            *to++ = type.dof(type.joints[axis.joint.index()], axis.axis).*info_of(parameter).member;
+        }
+}
+
 void RobotSet::energies(const RunAccess& run, std::span<double> out) const {
     for (std::size_t i = 0; i < size(); ++i) {
         const RobotType& type = model_->type_of(robots_[i]);
@@ -152,7 +184,16 @@ Result<> RobotSet::set_twists(RunAccess& run, std::span<const double> twists) co
     });
 }
 
-/// One order for each joint of each robot: all, or, if one is refused, none.
+/// All, or, if one is refused, none.
+Result<> RobotSet::change_all(RunAccess& run, const std::vector<Order>& orders) const {
+    for (const Order& order : orders)
+        if (Result<> fine = check_order(*model_, order); !fine) return fine;
+    for (const Order& order : orders)
+        if (Result<> done = run.change(order.robot, order.action); !done) return done;
+    return Ok{};
+}
+
+/// One order for each joint of each robot.
 Result<> RobotSet::change_joints(RunAccess& run, std::span<const double> values,
                                  std::vector<double> SetJointState::*kind) const {
     ROBOSS_CHECK(values.size() == size() * axes().size(), std::to_string(values.size()) + " numbers");
@@ -168,11 +209,37 @@ Result<> RobotSet::change_joints(RunAccess& run, std::span<const double> values,
             }
             (std::get<SetJointState>(orders.back().action).*kind).push_back(*from++);
         }
-    for (const Order& order : orders)
-        if (Result<> fine = check_order(*model_, order); !fine) return fine;
-    for (const Order& order : orders)
-        if (Result<> done = run.change(order.robot, order.action); !done) return done;
-    return Ok{};
+    return change_all(run, orders);
+}
+
+Result<> RobotSet::set_joint_parameters(RunAccess& run, std::span<const std::size_t> columns,
+                                        std::span<const JointParameter> parameters,
+                                        std::span<const double> values) const {
+    const std::size_t width = parameters.size() * columns.size();
+    ROBOSS_CHECK(values.size() == size() * width, std::to_string(values.size()) + " numbers");
+    std::vector<Order> orders;
+    orders.reserve(size() * columns.size());
+    for (std::size_t i = 0; i < size(); ++i)
+        for (std::size_t k = 0; k < columns.size(); ++k) {
+            const JointAxis& axis = axes_of_row(i)[columns[k]];
+            SetJointParameters own{axis.joint, axis.axis, false, {}};
+            for (std::size_t p = 0; p < parameters.size(); ++p)
+                own.values.push_back({parameters[p], values[i * width + p * columns.size() + k]});
+            add_other_limit(type_of_row(i), run.state(robots_[i]), own);
+            orders.push_back({run.tick(), ClientId(0U), 0, robots_[i], std::move(own)});
+        }
+    return change_all(run, orders);
+}
+
+Result<> RobotSet::reset_joint_parameters(RunAccess& run, std::span<const std::size_t> columns) const {
+    std::vector<Order> orders;
+    for (std::size_t i = 0; i < size(); ++i)
+        for (const std::size_t column : columns) {
+            const JointAxis& axis = axes_of_row(i)[column];
+            orders.push_back({run.tick(), ClientId(0U), 0, robots_[i],
+                              SetJointParameters{axis.joint, axis.axis, true, {}}});
+        }
+    return change_all(run, orders);
 }
 
 Result<> RobotSet::set_joint_positions(RunAccess& run, std::span<const double> positions) const {
@@ -184,11 +251,22 @@ Result<> RobotSet::set_joint_velocities(RunAccess& run, std::span<const double> 
 }
 
 Result<> RobotSet::set_joints(RunAccess& run, std::span<const std::size_t> columns, MotorMode mode,
-                              std::span<const double> targets, double max_effort) const {
+                              std::span<const double> targets, double max_effort, const Gains& gains) const {
     ROBOSS_CHECK(targets.size() == size() * columns.size(), std::to_string(targets.size()) + " numbers");
-    return give(run, columns.size(), [&](std::size_t i, std::size_t k) {
-        const JointAxis& axis = axes_of_row(i)[columns[k]];
-        return SetJoint{axis.joint, axis.axis, mode, targets[i * columns.size() + k], max_effort};
+    for (const std::span<const double> gain : {gains.position, gains.velocity})
+        ROBOSS_CHECK(gain.empty() || gain.size() == targets.size(), std::to_string(gain.size()) + " gains");
+    const bool has_gains = !gains.position.empty() || !gains.velocity.empty();
+    const std::size_t each = has_gains ? 2 : 1;  // orders of an axis
+    return give(run, each * columns.size(), [&](std::size_t i, std::size_t k) -> Action {
+        const std::size_t column = k / each, at = i * columns.size() + column;
+        const JointAxis& axis = axes_of_row(i)[columns[column]];
+        if (k % each + 1 == each) return SetJoint{axis.joint, axis.axis, mode, targets[at], max_effort};
+        SetJointParameters own{axis.joint, axis.axis, false, {}};
+        if (!gains.position.empty())
+            own.values.push_back({JointParameter::kPositionGain, gains.position[at]});
+        if (!gains.velocity.empty())
+            own.values.push_back({JointParameter::kVelocityGain, gains.velocity[at]});
+        return own;
     });
 }
 

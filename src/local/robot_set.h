@@ -54,6 +54,10 @@ class RobotSet {
     void joint_velocities(const RunAccess& run, std::span<double> out) const;
     /// What the motors of the joints gave, mean over the last tick, size() x axes(): N m or N.
     void joint_efforts(const RunAccess& run, std::span<double> out) const;
+    /// One number of each axis of each robot, size() x axes(): the robot's own, or its type's.
+    void joint_parameters(const RunAccess& run, JointParameter parameter, std::span<double> out) const;
+    /// The same as the file has it, whatever own numbers robots have.
+    void file_parameters(JointParameter parameter, std::span<double> out) const;
     /// Kinetic energy of the links, and their potential energy in the world's gravity (zero at the world's
     /// origin), size() x kEnergyColumns: J. Rotor inertias and springs are not in it.
     void energies(const RunAccess& run, std::span<double> out) const;
@@ -71,12 +75,30 @@ class RobotSet {
     Result<> set_joint_velocities(RunAccess& run, std::span<const double> velocities) const;
     /// Sets velocities as twists() gives them.
     Result<> set_twists(RunAccess& run, std::span<const double> twists) const;
+    /// Own numbers of some axes of each robot, size() x parameters.size() x columns.size(), in the units of
+    /// joint_parameters(). Of a limit without the other one, the other one stays.
+    Result<> set_joint_parameters(RunAccess& run, std::span<const std::size_t> columns,
+                                  std::span<const JointParameter> parameters,
+                                  std::span<const double> values) const;
+    /// All numbers of these axes are those of the robots' types again.
+    Result<> reset_joint_parameters(RunAccess& run, std::span<const std::size_t> columns) const;
 
     // What follows are orders: they take effect at the beginning of the next tick.
 
-    /// Setpoints of some axes, size() x columns.size(). A negative max_effort: the joint's own bound.
+    /// Gains of motors, each size() x columns; empty: they stay.
+    struct Gains {
+        std::span<const double> position{},  ///< N m/rad or N/m
+            velocity{};                      ///< N m s/rad or N s/m
+    };
+    /// Setpoints of some axes, size() x columns.size(). A negative max_effort: the joint's own bound. `gains`
+    /// become the robots' own numbers at the same tick.
     Result<> set_joints(RunAccess& run, std::span<const std::size_t> columns, MotorMode mode,
-                        std::span<const double> targets, double max_effort = -1) const;
+                        std::span<const double> targets, double max_effort, const Gains& gains) const;
+    /// The same, whose gains stay.
+    Result<> set_joints(RunAccess& run, std::span<const std::size_t> columns, MotorMode mode,
+                        std::span<const double> targets, double max_effort = -1) const {
+        return set_joints(run, columns, mode, targets, max_effort, {});
+    }
     /// Applies a wrench to this link of each robot (nullopt: to its first one) for `ticks` ticks. A row is
     /// the force (N, at the link's centre of mass) and the torque (N m), size() x 6.
     Result<> apply_wrenches(RunAccess& run, std::optional<std::size_t> link, std::span<const double> wrenches,
@@ -95,6 +117,7 @@ class RobotSet {
     using ActionOfRow = std::function<Action(std::size_t row, std::size_t k)>;
     Result<> give(RunAccess& run, std::size_t orders_per_row, const ActionOfRow& action) const;
     Result<> change(RunAccess& run, const ActionOfRow& action) const;
+    Result<> change_all(RunAccess& run, const std::vector<Order>& orders) const;
     Result<> change_joints(RunAccess& run, std::span<const double> values,
                            std::vector<double> SetJointState::*kind) const;
 

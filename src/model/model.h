@@ -78,6 +78,8 @@ struct Dof {
     double limit_stiffness =
                std::numeric_limits<double>::infinity(),  ///< N m/rad or N/m; infinite: a hard limit
         limit_dissipation = 0;                           ///< N m s/rad or N s/m, of a soft limit
+    /// Compares all members.
+    friend bool operator==(const Dof&, const Dof&) = default;
 };
 
 /// A link of the file, and the body that it is welded into.

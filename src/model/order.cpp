@@ -209,6 +209,9 @@ struct Check {
         return Error{"detach order of " + called(model, order) + " names no other robot",
                      "name the robot that is held, or none to let go of all", "no-robot"};
     }
+    Result<> operator()(const SetJointParameters& a) const {
+        return check_joint_parameters(model.robots[order.robot.index()].name, type, a);
+    }
     Result<> operator()(const Transmit& a) const {
         const std::string what = "message of " + called(model, order);
         if (a.radio >= type.radios.size())
@@ -301,7 +304,7 @@ struct Apply {
     }
     void operator()(const SetJoint& a) const {
         const Joint& joint = type.joints[a.joint.index()];
-        const double bound = type.dof(joint, a.axis).max_effort;
+        const double bound = dof_of(type, state, joint, a.axis).max_effort;
         MotorSetpoint& motor = state.motors[type.motor_index(joint, a.axis)];
         if (motor.mode != a.mode) motor.impulse = motor.load = 0;
         motor.mode = a.mode, motor.target = a.target;
@@ -362,6 +365,7 @@ struct Apply {
         radio.sent.push_back(t);
         radio.bytes.insert(radio.bytes.end(), a.payload.begin(), a.payload.end());
     }
+    void operator()(const SetJointParameters& a) const { apply_joint_parameters(type, a, state); }
     void operator()(const Detach& a) const {
         for (Bond& bond : state.bonds)
             if (!a.other.valid() || bond.other == a.other.value) bond.phase = BondPhase::kLoosed;

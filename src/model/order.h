@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/types.h"
+#include "model/joint_parameters.h"
 #include "model/robot_state.h"
 
 namespace roboss {
@@ -116,7 +117,7 @@ struct Transmit {
 
 /// What an order does.
 using Action = std::variant<SetPose, SetVelocity, ApplyWrench, SetJoint, Command, Attach, Detach, Pull,
-                            SetJointState, Transmit>;
+                            SetJointState, Transmit, SetJointParameters>;
 
 /// An action on one robot at one tick.
 struct Order {

@@ -5,8 +5,12 @@
 #include <bit>
 #include <cmath>
 #include <cstring>
+#include <functional>
+#include <initializer_list>
 #include <type_traits>
 #include <utility>
+
+#include "model/joint_parameters.h"
 
 namespace roboss {
 
@@ -56,8 +60,10 @@ class Teller {
     void tick(Tick t) { word(static_cast<std::uint64_t>(t)); }
     void id(std::uint32_t i) { word(i); }
     void pair(std::uint32_t a, std::uint32_t b) { word(static_cast<std::uint64_t>(a) << 32 | b); }
-    void flagged(std::uint32_t n, bool flag, bool flag_2, bool flag_3, bool flag_4) {
-        pair(n, (flag ? 1 : 0) | (flag_2 ? 2 : 0) | (flag_3 ? 4 : 0) | (flag_4 ? 8 : 0));
+    void flagged(std::uint32_t n, std::initializer_list<bool> flags) {
+        std::uint32_t bits = 0, bit = 1;
+        for (const bool flag : flags) bits |= flag ? bit : 0, bit <<= 1;
+        pair(n, bits);
     }
     /// Eight to a word, the last one filled up with zeros.
     void bytes(const std::vector<std::uint8_t>& list) {
@@ -106,12 +112,11 @@ class Reader {
         const std::uint64_t w = word();
         a = static_cast<std::uint32_t>(w >> 32), b = static_cast<std::uint32_t>(w);
     }
-    void flagged(std::uint32_t& n, bool& flag, bool& flag_2, bool& flag_3, bool& flag_4) {
-        std::uint32_t flags = 0;
-        pair(n, flags);
-        flag = (flags & 1) != 0, flag_2 = (flags & 2) != 0, flag_3 = (flags & 4) != 0;
-        flag_4 = (flags & 8) != 0;
-        if (flags > 15) fail();
+    void flagged(std::uint32_t& n, std::initializer_list<std::reference_wrapper<bool>> flags) {
+        std::uint32_t bits = 0;
+        pair(n, bits);
+        for (bool& flag : flags) flag = (bits & 1) != 0, bits >>= 1;
+        if (bits != 0) fail();
     }
     void bytes(std::vector<std::uint8_t>& list) {
         const std::uint64_t n = word();
@@ -228,12 +233,28 @@ void fields(A& a, Of<A, RadioState>& radio) {
     a.bytes(bytes);
 }
 
-/// Who is awake has no bound. `acts`: what on-board controllers keep follows later; `pulled`: pulls do;
-/// `talks`: radios do.
-template <class A, class Flag>
-void fields(A& a, Of<A, Rest>& rest, Flag& acts, Flag& pulled, Flag& talks) {
+/// Body and joint are those of the type.
+template <class A>
+void fields(A& a, Of<A, Dof>& dof) {
+    auto& [body, joint, lower, upper, max_effort, max_velocity, damping, friction, spring_stiffness,
+           spring_reference, armature, position_gain, velocity_gain, inverse_inertia, limit_stiffness,
+           limit_dissipation] = dof;
+    a.number(lower), a.number(upper), a.number(max_effort), a.number(max_velocity);
+    a.number(damping), a.number(friction), a.number(spring_stiffness), a.number(spring_reference);
+    a.number(armature), a.number(position_gain), a.number(velocity_gain), a.number(inverse_inertia);
+    a.number(limit_stiffness), a.number(limit_dissipation);
+}
+
+/// What follows behind the rest of a state: what on-board controllers keep, pulls, radios, own numbers.
+struct Parts {
+    bool acts = false, pulled = false, talks = false, differs = false;
+};
+
+/// Who is awake has no bound.
+template <class A>
+void fields(A& a, Of<A, Rest>& rest, Parts& parts) {
     auto& [still_ticks, asleep, neighbours, bound] = rest;
-    a.flagged(still_ticks, asleep, acts, pulled, talks);
+    a.flagged(still_ticks, {asleep, parts.acts, parts.pulled, parts.talks, parts.differs});
     a.length(neighbours);
     for (auto& id : neighbours) a.id(id);
     auto& [min, max] = bound;
@@ -242,23 +263,26 @@ void fields(A& a, Of<A, Rest>& rest, Flag& acts, Flag& pulled, Flag& talks) {
 
 template <class A>
 void fields(A& a, Of<A, RobotState>& state) {
-    auto& [q, v, motors, wrenches, contacts, rest, onboard, lists, surfaces, bonds, pulls, radios] = state;
-    bool acts = !onboard.empty() || !lists.empty() || !surfaces.empty() || !bonds.empty();
-    bool pulled = !pulls.empty(), talks = !radios.empty();
+    auto& [q, v, motors, wrenches, contacts, rest, onboard, lists, surfaces, bonds, pulls, radios, own_dofs] =
+        state;
+    Parts parts{!onboard.empty() || !lists.empty() || !surfaces.empty() || !bonds.empty(), !pulls.empty(),
+                !radios.empty(), !own_dofs.empty()};
     a.length(q), a.length(v), a.length(motors), a.length(wrenches), a.length(contacts);
     for (auto& x : q) a.number(x);
     for (auto& x : v) a.number(x);
     for (auto& motor : motors) fields(a, motor);
     for (auto& wrench : wrenches) fields(a, wrench);
     for (auto& contact : contacts) fields(a, contact);
-    fields(a, rest, acts, pulled, talks);
-    if (pulled) a.length(pulls);
+    fields(a, rest, parts);
+    if (parts.pulled) a.length(pulls);
     for (auto& pull : pulls) fields(a, pull);
-    if (talks) a.length(radios);
-    if constexpr (A::kReading)
-        if (talks && radios.empty()) a.fail();
+    if (parts.talks) a.length(radios);
     for (auto& radio : radios) fields(a, radio);
-    if (!acts) return;
+    if (parts.differs) a.length(own_dofs);
+    for (auto& dof : own_dofs) fields(a, dof);
+    if constexpr (A::kReading)
+        if ((parts.talks && radios.empty()) || (parts.differs && own_dofs.empty())) a.fail();
+    if (!parts.acts) return;
     a.length(onboard), a.length(lists), a.length(surfaces), a.length(bonds);
     for (auto& x : onboard) a.number(x);
     for (auto& list : lists) {
@@ -283,6 +307,13 @@ bool is_consistent(const RadioState& radio, std::size_t robots) {
            bytes <= RadioState::kMostBytes;
 }
 
+/// Bodies and joints of own numbers, which do not travel.
+void take_places(const RobotType& type, std::vector<Dof>& own) {
+    const std::vector<Dof> axes = own.empty() ? std::vector<Dof>() : axes_of(type);
+    for (std::size_t i = 0; i < std::min(own.size(), axes.size()); ++i)
+        own[i].body = axes[i].body, own[i].joint = axes[i].joint;
+}
+
 /// What is wrong with a state of which every field was read; nullptr: nothing.
 const char* inconsistency_of(const RobotState& state, const RobotType& type, std::size_t robots) {
     if (state.q.size() != static_cast<std::size_t>(type.nq) ||
@@ -302,6 +333,7 @@ const char* inconsistency_of(const RobotState& state, const RobotType& type, std
         state.lists.size() != static_cast<std::size_t>(type.list_count))
         return "has not as many commands or as much memory of on-board controllers as that";
     if (state.radios.size() != type.radios.size()) return "has not as many radios as that";
+    if (!may_own(type, state.own_dofs)) return "has numbers of joints that no order gives";
     const auto radio_fits = [&](const RadioState& r) { return is_consistent(r, robots); };
     if (!std::all_of(state.radios.begin(), state.radios.end(), radio_fits))
         return "has a radio whose transmissions do not fit each other";
@@ -364,6 +396,7 @@ Result<RobotState> decode_state(std::span<const std::uint8_t> bytes, const Robot
     Reader words(bytes);
     RobotState state;
     fields(words, state);
+    take_places(type, state.own_dofs);
     const char* wrong =
         words.complete() ? inconsistency_of(state, type, robots) : "is damaged, or bytes of it are missing";
     if (wrong == nullptr) return state;

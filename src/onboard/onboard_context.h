@@ -79,7 +79,7 @@ class OnboardContext {
         return state_.v[static_cast<std::size_t>(info_->axes[joint].v_index)];
     }
     const Dof& dof(std::size_t joint) const {
-        return type_.dofs[static_cast<std::size_t>(info_->axes[joint].motor_index)];
+        return dofs_of(type_, state_)[static_cast<std::size_t>(info_->axes[joint].motor_index)];
     }
     /// Latches a setpoint of the joint's motor: its target in rad/s, rad, N m (or m/s, m, N). The motor's
     /// bound is the joint's own, or `max_effort` if that is smaller.

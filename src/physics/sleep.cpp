@@ -139,13 +139,14 @@ bool moves_slowly(const RobotWork& work) {
 bool joints_rest(const RobotWork& work) {
     const RobotType& type = *work.type;
     double fastest = 0;
-    for (std::size_t d = 0; d < type.dofs.size(); ++d) {
-        const Body& body = type.bodies[static_cast<std::size_t>(type.dofs[d].body)];
+    const std::span<const Dof> dofs = work.dofs();
+    for (std::size_t d = 0; d < dofs.size(); ++d) {
+        const Body& body = type.bodies[static_cast<std::size_t>(dofs[d].body)];
         const double v = work.state->v[d + static_cast<std::size_t>(type.base_nv())];
-        if (speed_undamped(type.dofs[d], work.state->motors[d], v) > kRestJoint) return false;
+        if (speed_undamped(dofs[d], work.state->motors[d], v) > kRestJoint) return false;
         fastest = std::max(fastest, std::fabs(v));
         const double q = work.state->q[static_cast<std::size_t>(body.q_index)];
-        if (!motor_rests(type.dofs[d], work.state->motors[d], q, v)) return false;
+        if (!motor_rests(dofs[d], work.state->motors[d], q, v)) return false;
     }
     // motors of joints that close loops: their coordinate is not in q
     const std::vector<MotorSetpoint>& motors = work.state->motors;

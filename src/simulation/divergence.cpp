@@ -69,8 +69,9 @@ bool describe(const Model& model, const States& a, const States& b, Divergence& 
 }
 
 std::string describe(const Model& model, const Order& order) {
-    static constexpr const char* kKinds[] = {"set pose", "set velocity", "wrench", "joint",       "command",
-                                             "attach",   "detach",       "pull",   "joint state", "message"};
+    static constexpr const char* kKinds[] = {"set pose",    "set velocity", "wrench",          "joint",
+                                             "command",     "attach",       "detach",          "pull",
+                                             "joint state", "message",      "joint parameters"};
     static_assert(std::size(kKinds) == std::variant_size_v<Action>);
     std::string text = std::string(kKinds[order.action.index()]) + " of robot '" +
                        model.robots[order.robot.index()].name + "'";
@@ -79,6 +80,11 @@ std::string describe(const Model& model, const Order& order) {
                 std::to_string(joint->target);
     if (const auto* joint = std::get_if<SetJointState>(&order.action))
         text += ", joint '" + model.type_of(order.robot).joints[joint->joint.index()].name + "'";
+    if (const auto* own = std::get_if<SetJointParameters>(&order.action)) {
+        text += ", joint '" + model.type_of(order.robot).joints[own->joint.index()].name + "'";
+        for (const JointParameterValue& one : own->values)
+            text += std::string(", ") + info_of(one.parameter).name + " " + std::to_string(one.value);
+    }
     if (const auto* message = std::get_if<Transmit>(&order.action))
         text += ", of " + std::to_string(message->payload.size()) + " bytes";
     if (const auto* command = std::get_if<Command>(&order.action))

@@ -3,6 +3,7 @@
 #include <bit>
 #include <cstdio>
 
+#include "model/joint_parameters.h"
 #include "simulation/divergence.h"
 
 namespace roboss {
@@ -89,6 +90,19 @@ void compare_orders(const RobotState& a, const RobotState& b, Fields& fields) {
         fields.vector(name + " torque", a.wrenches[i].torque, b.wrenches[i].torque);
         fields.count(name + " end", static_cast<std::uint64_t>(a.wrenches[i].until),
                      static_cast<std::uint64_t>(b.wrenches[i].until));
+    }
+}
+
+void compare_own_numbers(const RobotType& type, const RobotState& a, const RobotState& b, Fields& fields) {
+    fields.count("number of joint axes with numbers of the robot's own", a.own_dofs.size(),
+                 b.own_dofs.size());
+    for (std::size_t i = 0; i < a.own_dofs.size() && !fields.done(); ++i) {
+        const Dof &x = a.own_dofs[i], &y = b.own_dofs[i];
+        const std::string name =
+            "axis " + std::to_string(i) + " of joint '" + type.joints[x.joint.index()].name + "', ";
+        for (const JointParameterInfo& row : joint_parameters())
+            fields.number(name + row.name, x.*row.member, y.*row.member);
+        fields.number(name + "mobility", x.inverse_inertia, y.inverse_inertia);
     }
 }
 
@@ -191,6 +205,7 @@ std::optional<FieldDifference> first_difference(const RobotType& type, const Rob
     if (fields.done()) return fields.take();
     compare_coordinates(type, a, b, fields);
     compare_orders(a, b, fields);
+    if (!fields.done()) compare_own_numbers(type, a, b, fields);
     compare_pulls(a, b, fields);
     compare_radios(a, b, fields);
     compare_contacts(a, b, fields);

@@ -24,6 +24,9 @@ std::vector<Order> some_orders() {
             {15, ClientId(2u), 5, kRobot, Detach{kOther}},
             {16, ClientId(2u), 6, kRobot, Pull{LinkId(1u), {1, 2, 3}, {4, 5, 6}, 7, 8, 9}},
             {17, ClientId(2u), 7, kOther, SetJointState{JointId(1u), {0.25}, {-1, 2, 3}}},
+            {17, ClientId(2u), 8, kOther,
+             SetJointParameters{
+                 JointId(1u), 1, true, {{JointParameter::kDamping, 0.5}, {JointParameter::kUpper, 2}}}},
             {18, ClientId(2u), 8, kOther, Transmit{3, kRobot, {1, 0, 255}}}};
 }
 

@@ -19,7 +19,7 @@ enum class OrderKind : std::uint8_t {
     kPose,       ///< SetPose, SetJointState
     kVelocity,   ///< SetVelocity
     kForce,      ///< ApplyWrench, Pull
-    kActuators,  ///< SetJoint, Command
+    kActuators,  ///< SetJoint, Command, SetJointParameters
     kBonds,      ///< Attach, Detach
     kRadio,      ///< Transmit
 };

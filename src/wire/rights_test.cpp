@@ -20,11 +20,17 @@ World three_robots() {
 
 /// One order of each sort, with the kind that it is of.
 std::vector<std::pair<OrderKind, Action>> every_action(RobotId other) {
-    return {{OrderKind::kPose, SetPose{}},         {OrderKind::kPose, SetJointState{}},
-            {OrderKind::kVelocity, SetVelocity{}}, {OrderKind::kForce, ApplyWrench{}},
-            {OrderKind::kForce, Pull{}},           {OrderKind::kActuators, SetJoint{}},
-            {OrderKind::kActuators, Command{}},    {OrderKind::kBonds, Attach{LinkId(0u), other, LinkId(0u)}},
-            {OrderKind::kBonds, Detach{other}},    {OrderKind::kRadio, Transmit{}}};
+    return {{OrderKind::kPose, SetPose{}},
+            {OrderKind::kPose, SetJointState{}},
+            {OrderKind::kVelocity, SetVelocity{}},
+            {OrderKind::kForce, ApplyWrench{}},
+            {OrderKind::kForce, Pull{}},
+            {OrderKind::kActuators, SetJoint{}},
+            {OrderKind::kActuators, Command{}},
+            {OrderKind::kBonds, Attach{LinkId(0u), other, LinkId(0u)}},
+            {OrderKind::kBonds, Detach{other}},
+            {OrderKind::kRadio, Transmit{}},
+            {OrderKind::kActuators, SetJointParameters{}}};
 }
 
 class ClientRights : public testing::Test {

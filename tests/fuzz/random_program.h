@@ -33,15 +33,31 @@ class RandomProgram : public ControlProgram {
         return client.command(robot, channel.channel.name, values);
     }
 
+    /// Own numbers of a joint, some of which no robot may have, or those of its type.
+    static Result<> give_parameters(Client& client, RobotId robot, JointId joint, Random& random) {
+        if (random.integer(0, 5) == 0) return client.reset_joint_parameters(robot, joint);
+        std::vector<JointParameterValue> values;
+        for (const JointParameter parameter :
+             {JointParameter::kDamping, JointParameter::kFriction, JointParameter::kSpringStiffness,
+              JointParameter::kArmature, JointParameter::kPositionGain, JointParameter::kVelocityGain,
+              JointParameter::kMaxEffort})
+            if (random.integer(0, 2) == 0) values.push_back({parameter, random.uniform(-0.2, 3)});
+        if (random.integer(0, 3) == 0)
+            values.insert(values.end(), {{JointParameter::kLower, random.uniform(-1, 0)},
+                                         {JointParameter::kUpper, random.uniform(0, 1)}});
+        return client.set_joint_parameters(robot, joint, std::move(values));
+    }
+
     Result<> give_order(Client& client, RobotId robot, Random& random) {
         const RobotType& type = client.model().type_of(robot);
         const RobotState& state = client.state(robot);
         const double pull = state.q[0] - state.q[1];
         if (!type.channels.empty() && random.integer(0, 2) > 0) return give_command(client, robot, random);
-        const int pick = random.integer(0, 12);
-        if (pick < 6 && !type.joints.empty()) {
+        const int pick = random.integer(0, 14);
+        if ((pick < 6 || pick > 12) && !type.joints.empty()) {
             const JointId joint(
                 static_cast<std::size_t>(random.integer(0, static_cast<int>(type.joints.size()) - 1)));
+            if (pick > 12) return give_parameters(client, robot, joint, random);
             return client.set_joint(robot, joint, MotorMode::kVelocity, random.uniform(-8, 8) + pull, 5);
         }
         if (pick < 9)

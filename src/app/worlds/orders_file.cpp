@@ -5,6 +5,7 @@
 #include <cmath>
 #include <fstream>
 #include <initializer_list>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <stdexcept>
@@ -174,6 +175,35 @@ Action parse_joint(const json& o, const RobotType& type, const std::string& robo
             throw LineFault("'max_effort' is negative", "give a bound >= 0, or leave it out");
     }
     if (o.contains("axis")) order.axis = static_cast<int>(number(o, "axis"));
+    return order;
+}
+
+/// null: there is no bound.
+double parameter_value(const json& o, const std::string& key, JointParameter parameter) {
+    const bool unbounded = o[key].is_null() && info_of(parameter).endless;
+    if (!unbounded) return number(o, key.c_str());
+    const double infinity = std::numeric_limits<double>::infinity();
+    return parameter == JointParameter::kLower ? -infinity : infinity;
+}
+
+Action parse_joint_parameters(const json& o, const RobotType& type, const std::string& robot) {
+    if (!o.is_object()) throw LineFault("joint_parameters is not a JSON object", "write {\"...\": ...}");
+    SetJointParameters order;
+    order.joint = named_joint(o, type, robot);
+    for (const auto& [key, value] : o.items()) {
+        if (key == "name") continue;
+        if (key == "axis") {
+            order.axis = static_cast<int>(number(o, "axis"));
+        } else if (key == "reset") {
+            if (!value.is_boolean()) throw LineFault("'reset' is not true or false", "write true");
+            order.reset = value.get<bool>();
+        } else if (const auto parameter = find_joint_parameter(key)) {
+            order.values.push_back({*parameter, parameter_value(o, key, *parameter)});
+        } else {
+            throw LineFault("'" + key + "' is not a key of joint_parameters",
+                            "known keys: name, axis, reset, " + joint_parameter_names());
+        }
+    }
     return order;
 }
 
@@ -376,6 +406,7 @@ Action parse_action(const json& o, const Model& model, RobotId id) {
     if (o.contains("pull")) return parse_pull(o["pull"], model, type, robot);
     if (o.contains("joint")) return parse_joint(o["joint"], type, robot);
     if (o.contains("joint_state")) return parse_joint_state(o["joint_state"], type, robot);
+    if (o.contains("joint_parameters")) return parse_joint_parameters(o["joint_parameters"], type, robot);
     if (o.contains("command")) return parse_command(o["command"], type, robot);
     if (o.contains("attach")) return parse_attach(o["attach"], model, type, robot);
     if (o.contains("detach")) return parse_detach(o["detach"], model);
@@ -398,15 +429,15 @@ void take(Order order, const Model& model, std::vector<Order>& orders, LineFault
 /// One order for each robot that the line names.
 void parse_order(const json& o, const Model& model, std::vector<Order>& orders, LineFaults& faults) {
     only_keys(o, "an order",
-              {"t", "robot", "set_pose", "set_velocity", "wrench", "joint", "joint_state", "command",
-               "attach", "detach", "pull", "transmit"});
+              {"t", "robot", "set_pose", "set_velocity", "wrench", "joint", "joint_state", "joint_parameters",
+               "command", "attach", "detach", "pull", "transmit"});
     const Tick tick = tick_of(o, model);
     const std::vector<RobotId> robots = robots_of(o, "robot", model);
     const int actions = static_cast<int>(o.size()) - 2;
     if (actions != 1)
         throw LineFault("the order has " + std::to_string(actions) + " actions",
-                        "name one of set_pose, set_velocity, wrench, pull, joint, joint_state, command, "
-                        "attach, detach, transmit, or publish without a robot");
+                        "name one of set_pose, set_velocity, wrench, pull, joint, joint_state, "
+                        "joint_parameters, command, attach, detach, transmit, or publish without a robot");
     for (const RobotId robot : robots) {
         Order order;
         order.apply_at = tick;
@@ -482,6 +513,15 @@ struct ActionToJson {
         if (!a.position.empty()) state["position"] = a.position;
         if (!a.velocity.empty()) state["velocity"] = a.velocity;
         line["joint_state"] = state;
+    }
+    void operator()(const SetJointParameters& a) const {
+        nlohmann::ordered_json numbers{{"name", type.joints[a.joint.index()].name}};
+        if (a.axis != 0) numbers["axis"] = a.axis;
+        if (a.reset) numbers["reset"] = true;
+        for (const JointParameterValue& one : a.values)
+            numbers[info_of(one.parameter).name] =
+                std::isfinite(one.value) ? nlohmann::ordered_json(one.value) : nlohmann::ordered_json();
+        line["joint_parameters"] = numbers;
     }
     void operator()(const Command& a) const {
         line["command"] = {{"name", type.channels[a.channel].channel.name}, {"values", a.values}};

@@ -161,6 +161,47 @@ TEST(OrdersFile, StatesOfJointsAreReadAndWrittenAlike) {
     }
 }
 
+TEST(OrdersFile, ParametersOfJointsAreReadAndWrittenAlike) {
+    const auto model = cart_model();
+    Diagnostics d;
+    const auto orders = parse_orders(
+        R"({"t":0.5,"robot":"cart","joint_parameters":{"name":"slide","damping":0.25,"max_effort":null}})"
+        "\n"
+        R"({"t":1,"robot":"cart","joint_parameters":{"name":"slide","reset":true}})"
+        "\n",
+        "f.jsonl", *model, d);
+    ASSERT_TRUE(d.items().empty()) << to_text(d.items()[0]);
+    ASSERT_EQ(orders.size(), 2u);
+    const double infinity = std::numeric_limits<double>::infinity();
+    EXPECT_EQ(orders[0].action, Action(SetJointParameters{JointId(0u),
+                                                          0,
+                                                          false,
+                                                          {{JointParameter::kDamping, 0.25},
+                                                           {JointParameter::kMaxEffort, infinity}}}));
+    EXPECT_EQ(orders[1].action, Action(SetJointParameters{JointId(0u), 0, true, {}}));
+    for (const Order& order : orders) {
+        const auto again = parse_orders(order_line(order, *model), "g.jsonl", *model, d);
+        ASSERT_EQ(again.size(), 1u);
+        EXPECT_EQ(again[0].action, order.action);
+    }
+}
+
+TEST(OrdersFile, ParametersOfJointsThatCannotBeSetAreNamedWithTheirLine) {
+    for (const char* line : {R"({"t":1,"robot":"cart","joint_parameters":{"name":"glide","damping":1}})",
+                             R"({"t":1,"robot":"cart","joint_parameters":{"name":"slide","mass":1}})",
+                             R"({"t":1,"robot":"cart","joint_parameters":{"name":"slide","damping":null}})",
+                             R"({"t":1,"robot":"cart","joint_parameters":{"name":"slide","damping":-1}})",
+                             R"({"t":1,"robot":"cart","joint_parameters":{"name":"slide","reset":1}})",
+                             R"({"t":1,"robot":"cart","joint_parameters":{"name":"slide","upper":1}})",
+                             R"({"t":1,"robot":"cart","joint_parameters":{"name":"slide"}})",
+                             R"({"t":1,"robot":"cart","joint_parameters":7})"}) {
+        Diagnostics d;
+        EXPECT_TRUE(parse_orders(line, "f.jsonl", *cart_model(), d).empty()) << line;
+        ASSERT_EQ(d.items().size(), 1u) << line;
+        EXPECT_EQ(d.items()[0].where.line, 1);
+    }
+}
+
 TEST(OrdersFile, StatesOfJointsThatCannotBeSetAreNamedWithTheirLine) {
     for (const char* line : {R"({"t":1,"robot":"cart","joint_state":{"name":"glide","position":1}})",
                              R"({"t":1,"robot":"cart","joint_state":{"name":"slide","position":[1,2]}})",

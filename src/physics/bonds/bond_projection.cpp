@@ -33,7 +33,7 @@ void BondProjection::gather_robots(std::span<const RobotWork> robots, std::span<
     offsets_.assign(1, 0);
     for (std::size_t m = 0; m < members_.size(); ++m) {
         const RobotWork& robot = robots[members_[m]];
-        works_[m].id = robot.id, works_[m].type = robot.type, works_[m].state = robot.state;
+        works_[m].id = robot.id, works_[m].take(*robot.type, *robot.state);
         offsets_.push_back(offsets_.back() + static_cast<std::size_t>(robot.type->nv));
     }
     bonds_.assign(bonds.begin(), bonds.end());

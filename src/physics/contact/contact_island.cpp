@@ -137,8 +137,7 @@ void finish_island(const Model& model, std::span<RobotWork> robots, IslandScratc
         }
         std::copy_n(s.v.begin() + static_cast<std::ptrdiff_t>(offset), nv, work.state->v.begin());
         advance_coordinates<double>(*work.type, displacement.subspan(offset, nv), model.dt_s, work.state->q);
-        if (work.type->has_equalities())
-            s.free_buffer.projection.close_coordinates(*work.type, work.state->q);
+        if (work.type->has_equalities()) s.free_buffer.projection.close_coordinates(work, work.state->q);
     }
 }
 
@@ -292,7 +291,7 @@ void stop_at_first_hit(const Model& model, std::span<RobotWork> robots, IslandSc
         const auto own =
             std::span(s.displacement)
                 .subspan(static_cast<std::size_t>(s.offsets[m]), static_cast<std::size_t>(robot.type->nv));
-        s.free_buffer.work.type = robot.type, s.free_buffer.work.state = robot.state;
+        s.free_buffer.work.take(*robot.type, *robot.state);
         all += sum_bodies(model, robot.state->q, own, robot.origin, s.free_buffer.work);
     }
     const Vec3 common = all.inertia.mass > 0 ? all.momentum.linear * (1.0 / all.inertia.mass) : Vec3{};
@@ -391,7 +390,8 @@ void remember_joints(const Model& model, const RobotWork& robot, std::span<const
     const RobotType& type = *robot.type;
     std::vector<MotorSetpoint>& motors = robot.state->motors;
     const auto is_hard = [&](std::size_t d) {
-        return has_hard_motor(tree_axis<double>(model, type, {robot.state->q, robot.state->v, motors}, d));
+        const JointStates<double> states{robot.state->q, robot.state->v, motors, robot.dofs()};
+        return has_hard_motor(tree_axis<double>(model, type, states, d));
     };
     for (std::size_t d = 0; d < type.dofs.size(); ++d)
         if (!is_hard(d)) motors[d].impulse = motors[d].load = 0;

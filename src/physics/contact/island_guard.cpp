@@ -22,16 +22,17 @@ double most_work_of_motors(const Model& model, std::span<RobotWork> robots,
     double work = 0;
     std::size_t row = 0;
     for (std::size_t m = 0; m < island.members.size(); ++m) {
-        const RobotType& type = *robots[island.members[m]].type;
+        const RobotWork& robot = robots[island.members[m]];
+        const RobotType& type = *robot.type;
         const int first = island.offsets[m] + type.base_nv(), last = island.offsets[m] + type.nv;
-        const std::vector<MotorSetpoint>& motors = robots[island.members[m]].state->motors;
+        const std::vector<MotorSetpoint>& motors = robot.state->motors;
         for (; row < rows.joints.size() && rows.joints[row].dof < last; ++row) {
             const JointRow& joint = rows.joints[row];
             // The row of a motor, hard or not, is the first of its axis.
             const bool is_first = row == 0 || rows.joints[row - 1].dof != joint.dof;
             if (!is_first || motors[static_cast<std::size_t>(joint.dof - first)].mode == MotorMode::kPassive)
                 continue;
-            const double mobility = type.dofs[static_cast<std::size_t>(joint.dof - first)].inverse_inertia;
+            const double mobility = robot.dofs()[static_cast<std::size_t>(joint.dof - first)].inverse_inertia;
             work += most_work(joint.impulse, island.v_before[static_cast<std::size_t>(joint.dof)], mobility);
         }
     }
@@ -79,7 +80,7 @@ BodySums sum_robots(const Model& model, std::span<RobotWork> robots, std::span<c
     for (const std::uint32_t m : members) {
         const RobotWork& robot = robots[m];
         if (robot.type->nv == 0) continue;
-        buffer.type = robot.type, buffer.state = robot.state;
+        buffer.take(*robot.type, *robot.state);
         all += sum_bodies(model, robot.state->q, robot.state->v, origin, buffer);
     }
     return all;
@@ -116,7 +117,7 @@ bool throws_back(const IslandRows& rows) {
 bool has_soft_loop_motor(const RobotWork& robot) {
     for (const LoopJoint& loop : robot.type->loops)
         for (std::size_t k = 0; k < loop.dofs.size(); ++k) {
-            const Dof& dof = loop.dofs[k];
+            const Dof& dof = dof_of(loop, *robot.state, k);
             const MotorMode mode = robot.state->motors[static_cast<std::size_t>(loop.motor_index) + k].mode;
             const bool has_gains = dof.velocity_gain > 0 || dof.position_gain > 0;
             if (mode == MotorMode::kEffort || (mode != MotorMode::kPassive && has_gains)) return true;

@@ -71,8 +71,7 @@ Spatial base_velocity(const RobotType& type, const RobotState& state) {
 void place_robot(const Model& model, RobotId id, RobotState& state, RobotWork& work) {
     const RobotType& type = model.type_of(id);
     work.id = id;
-    work.type = &type;
-    work.state = &state;
+    work.take(type, state);
     work.contacts = 0;
     work.touches_robot = work.pushed = work.held = work.bonded = work.asleep = false;
     work.placed = true;
@@ -107,10 +106,10 @@ void compute_impulse(const Model& model, double dt, double momentum_weight, std:
     add_joint_impulses(type, dt, momentum_weight, q, v, work);
 }
 
-void keep_inertias(const RobotType& type, double dt, Mechanics<double>& work) {
+void keep_inertias(double dt, Mechanics<double>& work) {
     work.own_inertias.clear(), work.joint_inertias.clear();
     for (const BodyWork& body : work.bodies) work.own_inertias.push_back(body.inertia);
-    for (const Dof& dof : type.dofs) work.joint_inertias.push_back(joint_inertia(dof, dt));
+    for (const Dof& dof : work.dofs()) work.joint_inertias.push_back(joint_inertia(dof, dt));
 }
 
 void compute_inertias(const RobotType& type, RobotWork& work) {

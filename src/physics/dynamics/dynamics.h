@@ -98,8 +98,9 @@ void forward_velocities(const RobotType& type, std::span<const T> v, Mechanics<T
 template <class T>
 void add_joint_impulses(const RobotType& type, double dt, double momentum_weight, std::span<const T> q,
                         std::span<const T> v, Mechanics<T>& work) {
-    for (std::size_t d = 0; d < type.dofs.size(); ++d) {
-        const Dof& dof = type.dofs[d];
+    const std::span<const Dof> dofs = work.dofs();
+    for (std::size_t d = 0; d < dofs.size(); ++d) {
+        const Dof& dof = dofs[d];
         const std::size_t i = d + static_cast<std::size_t>(type.base_nv());
         if (dof.armature != 0) work.impulse[i] += momentum_weight * dof.armature * v[i];
         if (dof.spring_stiffness != 0) {
@@ -150,8 +151,9 @@ void sum_impulses(double dt, double momentum_weight, std::span<const T> q, std::
 template <class T>
 void take_off_damping(double dt, std::span<const T> v, Mechanics<T>& work) {
     const RobotType& type = *work.type;
-    for (std::size_t d = 0; d < type.dofs.size(); ++d) {
-        const Dof& dof = type.dofs[d];
+    const std::span<const Dof> dofs = work.dofs();
+    for (std::size_t d = 0; d < dofs.size(); ++d) {
+        const Dof& dof = dofs[d];
         const double damping = dt * dof.damping + dt * dt * dof.spring_stiffness;
         const std::size_t i = d + static_cast<std::size_t>(type.base_nv());
         if (damping != 0) work.impulse[i] -= damping * v[i];
@@ -178,13 +180,13 @@ inline double joint_inertia(const Dof& dof, double dt) {
     return dof.armature + dt * dof.damping + dt * dt * dof.spring_stiffness;
 }
 
-void keep_inertias(const RobotType& type, double dt, Mechanics<double>& work);
+void keep_inertias(double dt, Mechanics<double>& work);
 
 template <class T>
 void compute_mass_matrix(const RobotType& type, double dt, Mechanics<T>& work) {
     work.mass_matrix.resize(type.paths.entries());
     if constexpr (std::is_same_v<T, double>)
-        if (!type.elimination.empty()) keep_inertias(type, dt, work);
+        if (!type.elimination.empty()) keep_inertias(dt, work);
     for (std::size_t b = type.bodies.size(); b-- > 0;) {
         const Body& body = type.bodies[b];
         const SpatialInertiaT<T>& subtree = work.bodies[b].inertia;
@@ -204,8 +206,9 @@ void compute_mass_matrix(const RobotType& type, double dt, Mechanics<T>& work) {
         }
         if (body.parent >= 0) work.bodies[static_cast<std::size_t>(body.parent)].inertia += subtree;
     }
-    for (std::size_t d = 0; d < type.dofs.size(); ++d) {
-        const Dof& dof = type.dofs[d];
+    const std::span<const Dof> dofs = work.dofs();
+    for (std::size_t d = 0; d < dofs.size(); ++d) {
+        const Dof& dof = dofs[d];
         const std::size_t i = d + static_cast<std::size_t>(type.base_nv());
         work.mass_matrix[type.paths.diagonal(i)] += T(joint_inertia(dof, dt));
     }

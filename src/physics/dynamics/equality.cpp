@@ -250,8 +250,9 @@ void leave_out_locked(std::span<const char> locked, Equalities& equalities) {
         if (locked[static_cast<std::size_t>(column.dof)]) column.j = 0;
 }
 
-void EqualityProjection::place(const RobotType& type, std::span<const double> q) {
-    work_.type = &type;
+void EqualityProjection::place(const RobotWork& robot, std::span<const double> q) {
+    const RobotType& type = *robot.type;
+    work_.type = robot.type, work_.own_dofs = robot.own_dofs;
     walk_.place(type, q, work_);
     for (BodyWork& body : work_.bodies) body.velocity = body.bias = {};
     gather_for_solver(work_, q, equalities_, walk_.team());
@@ -276,9 +277,10 @@ double EqualityProjection::largest_error() const {
     return largest;
 }
 
-void EqualityProjection::close_coordinates(const RobotType& type, std::span<double> q,
+void EqualityProjection::close_coordinates(const RobotWork& robot, std::span<double> q,
                                            std::span<const char> locked) {
-    place(type, q);
+    const RobotType& type = *robot.type;
+    place(robot, q);
     double error = largest_error();
     for (int i = 0; i < kNewtonMax && error > kClosed; ++i) {
         for (std::size_t r = 0; r < wanted_.size(); ++r) wanted_[r] = -equalities_.rows[r].error;
@@ -291,7 +293,7 @@ void EqualityProjection::close_coordinates(const RobotType& type, std::span<doub
         for (int halved = 0;; ++halved, share *= 0.5) {
             advance_coordinates<double>(type, change_, share, q);
             if (step * share <= kClosed) return;
-            place(type, q);
+            place(robot, q);
             const double now = largest_error();
             if (now <= std::max(kMoreError * error, kNearlyClosed)) {
                 error = now;
@@ -303,12 +305,12 @@ void EqualityProjection::close_coordinates(const RobotType& type, std::span<doub
     }
 }
 
-void EqualityProjection::close_velocities(const RobotType& type, std::span<const double> q,
+void EqualityProjection::close_velocities(const RobotWork& robot, std::span<const double> q,
                                           std::span<double> v, std::span<const char> locked) {
-    place(type, q);
+    place(robot, q);
     times_rows(work_, v, {}, equalities_, wanted_);
     for (double& wanted : wanted_) wanted = -wanted;
-    prepare(type, locked);
+    prepare(*robot.type, locked);
     solver_.solve(wanted_, change_);
     for (std::size_t k = 0; k < v.size(); ++k) v[k] += change_[k];
 }

@@ -93,13 +93,13 @@ class EqualitySolver {
 class EqualityProjection {
   public:
     void share_with(const Team& team) { solver_.share_with(team), walk_.share_with(team); }
-    void close_coordinates(const RobotType& type, std::span<double> q, std::span<const char> locked = {});
-    void close_velocities(const RobotType& type, std::span<const double> q, std::span<double> v,
+    void close_coordinates(const RobotWork& robot, std::span<double> q, std::span<const char> locked = {});
+    void close_velocities(const RobotWork& robot, std::span<const double> q, std::span<double> v,
                           std::span<const char> locked = {});
 
   private:
     void prepare(const RobotType& type, std::span<const char> locked);
-    void place(const RobotType& type, std::span<const double> q);
+    void place(const RobotWork& robot, std::span<const double> q);
     double largest_error() const;
 
     RobotWork work_;

@@ -40,8 +40,8 @@ bool FreeCourses::compute(const Model& model, const RobotWork& robot, std::vecto
     if (!has_joints(type) || (keep_reactions_ && !type.loops.empty()) || !moves_freely(model, robot))
         return false;
     if (turns_too_far(robot)) return false;
-    work_.id = robot.id, work_.type = robot.type, work_.state = &state_;
     state_ = *robot.state;
+    work_.id = robot.id, work_.take(type, state_);
     forward_kinematics<double>(type, state_.q, work_);
     forward_velocities<double>(type, state_.v, work_);
     advance_freely(model, work_, buffer_);

@@ -59,8 +59,9 @@ void add_equality_acceleration(std::span<const double> q, std::span<const char> 
 void add_joint_forces(const Model& model, std::span<const double> q, std::span<const double> v,
                       bool has_stiff, RobotWork& work) {
     const RobotType& type = *work.type;
-    for (std::size_t d = 0; d < type.dofs.size(); ++d) {
-        const Dof& dof = type.dofs[d];
+    const std::span<const Dof> dofs = work.dofs();
+    for (std::size_t d = 0; d < dofs.size(); ++d) {
+        const Dof& dof = dofs[d];
         const std::size_t i = d + static_cast<std::size_t>(type.base_nv());
         if (!has_stiff || !is_stiff(dof, model.dt_s)) {
             work.impulse[i] -= dof.damping * v[i];
@@ -151,16 +152,15 @@ void start_part(const Method& method, RobotWork& work, FreeBuffer& buffer) {
     for (auto* sized_q : {&buffer.q, &buffer.q_sum}) sized_q->resize(nq);
     for (auto* sized_v : {&buffer.v, &buffer.v_sum}) sized_v->resize(nv);
     buffer.q_rates.resize(method.stages * nq), buffer.v_rates.resize(method.stages * nv);
-    buffer.work.type = work.type;
-    buffer.work.state = work.state;
+    buffer.work.take(*work.type, *work.state);
     if (!work.type->has_equalities()) return;
     buffer.q_start = state.q, buffer.v_start = state.v;
 }
 
 /// Puts the state back onto the loops and couplings.
-void close(const SteadyRows& rows, const RobotType& type, RobotState& state, FreeBuffer& buffer) {
-    buffer.projection.close_coordinates(type, state.q, rows.locked);
-    buffer.projection.close_velocities(type, state.q, state.v, rows.locked);
+void close(const SteadyRows& rows, RobotState& state, FreeBuffer& buffer) {
+    buffer.projection.close_coordinates(buffer.work, state.q, rows.locked);
+    buffer.projection.close_velocities(buffer.work, state.q, state.v, rows.locked);
 }
 
 /// The velocity after a step with the loops open, by the acceleration of the tree at the beginning.
@@ -220,9 +220,9 @@ void advance_projected(double dt, const SteadyRows& rows, RobotWork& work, FreeB
     const RobotType& type = *work.type;
     RobotState& state = *work.state;
     state.q = buffer.q_start, state.v = buffer.open_velocity;
-    buffer.projection.close_velocities(type, state.q, state.v, rows.locked);
+    buffer.projection.close_velocities(buffer.work, state.q, state.v, rows.locked);
     advance_coordinates<double>(type, state.v, dt, state.q);
-    close(rows, type, state, buffer);
+    close(rows, state, buffer);
 }
 
 /// The acceleration at the buffer's q and v, into its work's velocity; at the first stage also the velocity
@@ -264,7 +264,7 @@ void advance_part(const Model& model, double dt, const SteadyRows& rows, RobotWo
     add_rates(state.v, dt, weights, buffer.v_rates, buffer.v_sum, state.v);
     normalise(type, state.q);
     if (!type.has_equalities()) return;
-    close(rows, type, state, buffer);
+    close(rows, state, buffer);
     if (gained_energy(model, dt, rows, work, buffer)) advance_projected(dt, rows, work, buffer);
 }
 

@@ -19,13 +19,14 @@ template <class T>
 struct JointStates {
     std::span<const T> q, v;
     std::span<MotorSetpointT<T>> motors;
+    std::span<const Dof> dofs;  // of the tree (Mechanics::dofs)
 };
 
 /// One degree of freedom of the tree.
 template <class T>
 AxisStateT<T> tree_axis(const Model& model, const RobotType& type, const JointStates<T>& state,
                         std::size_t d) {
-    const Dof& dof = type.dofs[d];
+    const Dof& dof = state.dofs[d];
     const Body& body = type.bodies[static_cast<std::size_t>(dof.body)];
     const bool has_position = joint_traits(body.joint).has_positions();
     return {dof,

@@ -28,8 +28,7 @@ class KickDrift {
   public:
     KickDrift(const Model& model, const SolvedTick& solved, RobotWork& work, FreeBuffer& buffer)
         : model_(model), solved_(solved), work_(work), buffer_(buffer) {
-        buffer_.work.type = work.type;
-        buffer_.work.state = work.state;
+        buffer_.work.take(*work.type, *work.state);
     }
 
     /// Where no row acts at the beginning.
@@ -128,7 +127,7 @@ class KickDrift {
         for (std::size_t i = 0; i < nv; ++i)
             state_.v[i] = held.locked[i] ? held.velocity[i] : state_.v[i] + change[i];
         if (type_.has_equalities())
-            buffer_.projection.close_velocities(type_, state_.q, state_.v, held.locked);
+            buffer_.projection.close_velocities(work_, state_.q, state_.v, held.locked);
     }
 
     void drift() {
@@ -149,7 +148,7 @@ class KickDrift {
     /// Stiff springs and dampings as the solver took them: at the end of the tick.
     void add_stiff_forces() {
         for (std::size_t d = 0; d < type_.dofs.size(); ++d) {
-            const Dof& dof = type_.dofs[d];
+            const Dof& dof = work_.dofs()[d];
             if (!is_stiff(dof, model_.dt_s)) continue;
             const double rate = solved_.velocity[dof_index(d)];
             double& force = buffer_.force[dof_index(d)];
@@ -169,7 +168,7 @@ class KickDrift {
     void spin_on(const BodySums& before) {
         if (type_.free_base) add_rigid_motion({{}, model_.gravity * model_.dt_s}, origin_, 1.0, state_);
         advance_coordinates<double>(type_, state_.v, model_.dt_s, state_.q);
-        if (type_.has_equalities()) buffer_.projection.close_coordinates(type_, state_.q);
+        if (type_.has_equalities()) buffer_.projection.close_coordinates(work_, state_.q);
         if (!type_.dofs.empty()) guard(before);
     }
 
@@ -192,7 +191,7 @@ class KickDrift {
         state_.q = buffer_.held.q_start;
         std::copy(solved_.velocity.begin(), solved_.velocity.end(), state_.v.begin());
         advance_coordinates<double>(type_, solved_.displacement, model_.dt_s, state_.q);
-        if (type_.has_equalities()) buffer_.projection.close_coordinates(type_, state_.q);
+        if (type_.has_equalities()) buffer_.projection.close_coordinates(work_, state_.q);
     }
 
     const Body& body_of(const Dof& dof) const { return type_.bodies[static_cast<std::size_t>(dof.body)]; }
@@ -205,7 +204,7 @@ class KickDrift {
         const double dt = model_.dt_s;
         bool any = false;
         for (std::size_t d = 0; d < type_.dofs.size(); ++d) {
-            const Dof& dof = type_.dofs[d];
+            const Dof& dof = work_.dofs()[d];
             const Body& body = body_of(dof);
             const std::size_t i = dof_index(d);
             if (held.locked[i] || !joint_traits(body.joint).has_positions()) continue;
@@ -239,7 +238,7 @@ class KickDrift {
         state_.q = held.q_start, state_.v = held.v_start;
         const BodySums before = sums();
         advance_coordinates<double>(type_, displacement, model_.dt_s, state_.q);
-        if (type_.has_equalities()) buffer_.projection.close_coordinates(type_, state_.q);
+        if (type_.has_equalities()) buffer_.projection.close_coordinates(work_, state_.q);
         BodySums after = sums();
         if (type_.free_base) set_course({before.centre(), before.momentum}, after);
         if (after.energy() <= before.energy()) held.q_start = state_.q, held.v_start = state_.v;
@@ -318,7 +317,7 @@ class KickDrift {
     /// Turns and bends the robot by a share of the extra displacement.
     void displace(double share) {
         advance_coordinates<double>(type_, buffer_.wanted, share * model_.dt_s, state_.q);
-        if (type_.has_equalities()) buffer_.projection.close_coordinates(type_, state_.q);
+        if (type_.has_equalities()) buffer_.projection.close_coordinates(work_, state_.q);
     }
 
     /// The momentum that the extra displacement over dt would have as a velocity, at the beginning of the
@@ -438,8 +437,10 @@ bool only_motors_drive(const Model& model, const RobotWork& work) {
     for (const LinkDrag& drag : type.drags)
         if (drag.wind) return false;
     for (const LoopJoint& loop : type.loops)
-        for (const Dof& dof : loop.dofs)
+        for (std::size_t k = 0; k < loop.dofs.size(); ++k) {
+            const Dof& dof = dof_of(loop, *work.state, k);
             if (dof.spring_stiffness > 0 || std::isfinite(dof.limit_stiffness)) return false;
+        }
     return true;
 }
 

@@ -18,7 +18,7 @@ inline double motor_effort(const Model& model, const RobotType& type, const Robo
                            int axis = 0) {
     const Joint& joint = type.joints[id.index()];
     const MotorSetpoint& motor = state.motors[type.motor_index(joint, axis)];
-    const Dof& dof = type.dof(joint, axis);
+    const Dof& dof = dof_of(type, state, joint, axis);
     const JointState at = joint_state(type, state, id, axis);
     const double begin = at.position - model.dt_s * at.velocity;
     const AxisState now{dof,         motor,      begin,

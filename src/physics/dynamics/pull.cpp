@@ -15,7 +15,7 @@ constexpr double kRatePerTick = 0.25;  // rad
 /// Motion and factored mass matrix of a robot, all that a pull needs to know.
 void place_and_factor(const Model& model, RobotId robot, RobotState& state, RobotWork& work) {
     const RobotType& type = model.type_of(robot);
-    work.id = robot, work.type = &type, work.state = &state;
+    work.id = robot, work.take(type, state);
     forward_kinematics<double>(type, state.q, work);
     forward_velocities<double>(type, state.v, work);
     compute_inertias(type, work);

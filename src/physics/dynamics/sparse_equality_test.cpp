@@ -48,6 +48,12 @@ class SparseEqualities : public testing::TestWithParam<int> {
     const Case case_ = of(GetParam());
 };
 
+RobotWork of_type(const RobotType& type) {
+    RobotWork work;
+    work.type = &type;
+    return work;
+}
+
 /// Share of the largest entry by which two vectors differ.
 double difference(const std::vector<double>& a, const std::vector<double>& b) {
     double most = 0, size = 0;
@@ -74,15 +80,15 @@ TEST_P(SparseEqualities, AgreeWithTheDenseSolve) {
         if (case_.lock) v[locked.size() / 2] = 0;
         std::vector<double> v_dense = v;
         EqualityProjection by_joints, by_matrix;
-        by_joints.close_velocities(sparse, sim.states[0].q, v, locked);
-        by_matrix.close_velocities(dense, sim.states[0].q, v_dense, locked);
+        by_joints.close_velocities(of_type(sparse), sim.states[0].q, v, locked);
+        by_matrix.close_velocities(of_type(dense), sim.states[0].q, v_dense, locked);
         EXPECT_LT(difference(v, v_dense), 1e-9) << "velocities, round " << round;
 
         std::vector<double> q = sim.states[0].q;
         for (std::size_t i = 7; i < q.size(); ++i) q[i] += 1e-3 * normal(random);
         std::vector<double> q_dense = q;
-        by_joints.close_coordinates(sparse, q, locked);
-        by_matrix.close_coordinates(dense, q_dense, locked);
+        by_joints.close_coordinates(of_type(sparse), q, locked);
+        by_matrix.close_coordinates(of_type(dense), q_dense, locked);
         EXPECT_LT(difference(q, q_dense), 1e-9) << "coordinates, round " << round;
         if (!case_.lock) sim.step();
     }

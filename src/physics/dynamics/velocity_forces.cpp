@@ -13,8 +13,7 @@ namespace {
 /// Impulse of the forces that do not depend on velocities, into buffer.work.impulse.
 void add_up_forces_at_rest(const Model& model, const RobotWork& work, FreeBuffer& buffer) {
     buffer.v.assign(work.impulse.size(), 0.0);
-    buffer.work.type = work.type;
-    buffer.work.state = work.state;
+    buffer.work.take(*work.type, *work.state);
     forward_kinematics<double>(*work.type, work.state->q, buffer.work);
     forward_velocities<double>(*work.type, buffer.v, buffer.work);
     compute_impulse(model, model.dt_s, 0.0, work.state->q, buffer.v, buffer.work);

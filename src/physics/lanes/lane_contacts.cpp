@@ -25,8 +25,7 @@ RobotWork& LaneContacts::start(const Model& model, std::size_t lane, const LaneR
                                const Aabb& box) {
     RobotWork& work = works_[lane];
     work.id = robot.id;
-    work.type = &model.type_of(robot.id);
-    work.state = robot.state;
+    work.take(model.type_of(robot.id), *robot.state);
     work.asleep = false;
     work.box = box;
     work.shapes.resize(work.type->shapes.size());

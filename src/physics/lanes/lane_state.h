@@ -19,14 +19,15 @@ class LaneState {
     using Wide = WideOf<T>;
 
     /// Coordinates, velocities and motors. Lanes without a robot, or with a motor in another mode than the
-    /// first robot's, leave, but compute along with the first robot's values.
+    /// first robot's, or with other numbers of axes, leave, but compute along with the first robot's values.
     void gather(const RobotType& type, std::span<const LaneRobot> robots, Lockstep<T>& together) {
         const RobotState& first = *robots[0].state;
+        dofs_ = dofs_of(type, first);
         q_.resize(first.q.size()), v_.resize(first.v.size()), motors_.resize(first.motors.size());
         targets_.resize(motors_.size());
         for (std::size_t m = 0; m < motors_.size(); ++m) motors_[m].mode = first.motors[m].mode;
         for (std::size_t lane = 0; lane < kLanesOf<T>; ++lane) {
-            if (lane >= robots.size()) together.leave(lane);
+            if (lane >= robots.size() || robots[lane].state->own_dofs != first.own_dofs) together.leave(lane);
             take(lane, lane < robots.size() ? *robots[lane].state : first, together);
         }
         if constexpr (kIsFloat<T>)
@@ -40,9 +41,9 @@ class LaneState {
     /// What rows are made from. In floats, velocities that motors are to reach are relative to the present.
     JointStates<T> joints() {
         if constexpr (kIsFloat<T>)
-            return {local_q_, local_v_, motors_};
+            return {local_q_, local_v_, motors_, dofs_};
         else
-            return {q_, v_, motors_};
+            return {q_, v_, motors_, dofs_};
     }
     /// Coordinates go by `displacement`, velocities become `solution`, which is overwritten; in floats both
     /// are added to the velocities before.
@@ -98,7 +99,7 @@ class LaneState {
     }
 
     void set_motor(const RobotType& type, std::size_t d) {
-        const Dof& dof = type.dofs[d];
+        const Dof& dof = dofs_[d];
         MotorSetpointT<T>& motor = motors_[d];
         Wide target = targets_[d];
         if (motor.mode == MotorMode::kVelocity) {
@@ -113,7 +114,7 @@ class LaneState {
     /// it is to go.
     void take_off_turns(const RobotType& type, std::size_t d, Wide& target) {
         using std::floor;
-        const Dof& dof = type.dofs[d];
+        const Dof& dof = dofs_[d];
         const Body& body = type.bodies[static_cast<std::size_t>(dof.body)];
         if (!joint_traits(body.joint).is_periodic || dof.spring_stiffness != 0 || std::isfinite(dof.lower) ||
             std::isfinite(dof.upper))
@@ -127,6 +128,7 @@ class LaneState {
     std::vector<Wide> q_, v_, targets_, wide_;
     std::vector<T> local_q_, local_v_;
     std::vector<MotorSetpointT<T>> motors_;
+    std::span<const Dof> dofs_;  // of the robots
 };
 
 }  // namespace roboss

@@ -101,10 +101,10 @@ class LaneStep final : public LaneStepper {
     }
 
     void place_bodies(const Model& model, std::span<const LaneRobot> robots, Lockstep<T>& together) {
-        work_.type = &model.type_of(robots[0].id);
-        const RobotType& type = *work_.type;
+        const RobotType& type = model.type_of(robots[0].id);
+        work_.take(type, *robots[0].state);
         state_.gather(type, robots, together);
-        placed().type = &type;
+        placed().take(type, *robots[0].state);
         forward_kinematics<Wide>(type, state_.q(), placed());
         forward_velocities<Wide>(type, state_.v(), placed());
     }
@@ -334,7 +334,7 @@ class LaneStep final : public LaneStepper {
         }
         free_ = true;
         for (std::size_t d = 0; d < type.dofs.size(); ++d)
-            free_ = free_ & Mask(!is_stiff(type.dofs[d], model.dt_s)) &
+            free_ = free_ & Mask(!is_stiff(joints.dofs[d], model.dt_s)) &
                     is_left_alone(tree_axis(model, type, joints, d));
     }
 

@@ -1,0 +1,230 @@
+// See joint_parameters.h.
+#include "model/joint_parameters.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+
+#include "core/fixed_math.h"
+#include "model/joint_motion.h"
+#include "model/robot_state.h"
+#include "world/joint_type.h"
+
+namespace roboss {
+namespace {
+
+/// The largest number of any: products of two with a tick stay numbers.
+constexpr double kLargestParameter = 1e12;
+
+constexpr std::array<JointParameterInfo, kJointParameters> kRows{{
+    {"lower", "rad", "m", &Dof::lower, false, true, false},
+    {"upper", "rad", "m", &Dof::upper, false, true, false},
+    {"max_effort", "N m", "N", &Dof::max_effort, true, true},
+    {"max_velocity", "rad/s", "m/s", &Dof::max_velocity, true, true},
+    {"damping", "N m s/rad", "N s/m", &Dof::damping},
+    {"friction", "N m", "N", &Dof::friction},
+    {"spring_stiffness", "N m/rad", "N/m", &Dof::spring_stiffness, true, false, false},
+    {"spring_reference", "rad", "m", &Dof::spring_reference, false, false, false},
+    {"armature", "kg m^2", "kg", &Dof::armature},
+    {"position_gain", "N m/rad", "N/m", &Dof::position_gain, true, false, false},
+    {"velocity_gain", "N m s/rad", "N s/m", &Dof::velocity_gain},
+    {"limit_stiffness", "N m/rad", "N/m", &Dof::limit_stiffness, true, true, false},
+    {"limit_dissipation", "N m s/rad", "N s/m", &Dof::limit_dissipation, true, false, false},
+}};
+
+std::string number_text(double value) {
+    char buffer[32];
+    std::snprintf(buffer, sizeof buffer, "%g", value);
+    return buffer;
+}
+
+/// Whether any robot may have this number, whatever its type.
+bool is_sound(JointParameter parameter, double value) {
+    const JointParameterInfo& row = info_of(parameter);
+    if (std::isnan(value) || (row.signless && value < 0)) return false;
+    if (parameter == JointParameter::kLimitStiffness && !(value > 0)) return false;
+    return std::isinf(value) ? row.endless : std::fabs(value) <= kLargestParameter;
+}
+
+bool are_within(const Dof& own, const Dof& of_type) {
+    return own.lower <= own.upper && own.lower >= of_type.lower && own.upper <= of_type.upper;
+}
+
+/// Checks the numbers of one axis, and names what is wrong.
+class AxisCheck {
+  public:
+    AxisCheck(const std::string& robot, const RobotType& type, const SetJointParameters& order)
+        : type_(type), order_(order), joint_(type.joints[order.joint.index()]) {
+        called_ = "joint '" + joint_.name + "' of robot '" + robot + "'";
+    }
+
+    Result<> run() const {
+        if (order_.values.empty() && !order_.reset)
+            return Error{"order for the parameters of " + called_ + " names none",
+                         "name some of " + joint_parameter_names() + ", or reset them", "no-parameter"};
+        for (const JointParameterValue& one : order_.values)
+            if (Result<> fine = check(one); !fine) return fine;
+        return check_axis_limits();
+    }
+
+  private:
+    Result<> check(const JointParameterValue& one) const {
+        if (static_cast<std::size_t>(one.parameter) >= kJointParameters)
+            return Error{"order for a parameter of " + called_ + " that does not exist",
+                         "name some of " + joint_parameter_names(), "no-parameter"};
+        const JointParameterInfo& row = info_of(one.parameter);
+        if (std::ranges::count(order_.values, one.parameter, &JointParameterValue::parameter) > 1)
+            return Error{"order for " + called_ + " names '" + row.name + "' twice", "name it once",
+                         "repeated-parameter"};
+        if (Result<> fine = check_kind(one, row); !fine) return fine;
+        return check_value(one, row);
+    }
+
+    /// Whether a joint of this kind has such a number.
+    Result<> check_kind(const JointParameterValue& one, const JointParameterInfo& row) const {
+        if (joint_type(joint_.kind).is_isotropic() && !row.of_balls)
+            return Error{std::string("'") + row.name + "' of " + called_ + ": a ball joint has none",
+                         "set its damping, friction, armature, velocity_gain, max_effort or max_velocity",
+                         "no-position"};
+        if (one.parameter != JointParameter::kArmature || one.value == 0) return Ok{};
+        if (joint_.loop >= 0)
+            return Error{"'armature' of " + called_ + ": it closes a loop, and has no rotor inertia",
+                         "give it to a joint that the loop is not cut at", "loop-joint"};
+        if (!type_.elimination.empty())
+            return Error{"'armature' of " + called_ + ": robots of so many loops have no rotor inertias",
+                         "write it in the world file, for all robots of the type", "many-loops"};
+        return Ok{};
+    }
+
+    Result<> check_value(const JointParameterValue& one, const JointParameterInfo& row) const {
+        const auto motions = joint_type(joint_.kind).motions;
+        const auto motion = std::min(static_cast<std::size_t>(order_.axis), motions.size() - 1);
+        const bool turns = joint_traits(motions[motion]).turns;
+        const std::string what = std::string("'") + row.name + "' of " + called_ + " is " +
+                                 number_text(one.value) + " " + (turns ? row.turning : row.sliding);
+        if (std::isnan(one.value) || (std::isinf(one.value) && !row.endless))
+            return Error{what, "give a finite number", "not-finite"};
+        if (row.signless && one.value < 0)
+            return Error{what + "; it cannot be negative", "give a number of at least 0", "bad-parameter"};
+        if (one.parameter == JointParameter::kLimitStiffness && one.value == 0)
+            return Error{what + "; a limit that does not push is none",
+                         "give a stiffness above 0, or move the limits", "bad-parameter"};
+        if (std::isfinite(one.value) && std::fabs(one.value) > kLargestParameter)
+            return Error{what + "; more than " + number_text(kLargestParameter) + " is no number of a joint",
+                         "give at most that; docs/physics.md lists the limits of orders", "beyond-limit"};
+        return Ok{};
+    }
+
+    Result<> check_axis_limits() const {
+        const auto lower = value_of(JointParameter::kLower), upper = value_of(JointParameter::kUpper);
+        if (!lower && !upper) return Ok{};
+        if (!lower || !upper)
+            return Error{"order for " + called_ + " sets one of its two limits",
+                         "give 'lower' and 'upper' together", "half-limits"};
+        const std::string both = "[" + number_text(*lower) + ", " + number_text(*upper) + "]";
+        if (!(*lower <= *upper))
+            return Error{"limits " + both + " of " + called_ + ": the lower one is above the upper one",
+                         "give the smaller number as 'lower'", "bad-parameter"};
+        const Dof& of_type = type_.dof(joint_, order_.axis);
+        if (*lower >= of_type.lower && *upper <= of_type.upper) return Ok{};
+        return Error{"limits " + both + " of " + called_ + " are wider than those of its type, [" +
+                         number_text(of_type.lower) + ", " + number_text(of_type.upper) + "]",
+                     "stay within these, or write wider ones in the world file", "beyond-type"};
+    }
+
+    std::optional<double> value_of(JointParameter parameter) const {
+        const auto found = std::ranges::find(order_.values, parameter, &JointParameterValue::parameter);
+        if (found == order_.values.end()) return std::nullopt;
+        return found->value;
+    }
+
+    const RobotType& type_;
+    const SetJointParameters& order_;
+    const Joint& joint_;
+    std::string called_;
+};
+
+/// The motor of an axis whose numbers were others `before`.
+void fit_motor(const Dof& before, const Dof& now, MotorSetpoint& motor) {
+    const bool had_all = motor.max_effort == before.max_effort;
+    motor.max_effort = had_all ? now.max_effort : fixed_min(motor.max_effort, now.max_effort);
+    if (before.position_gain == now.position_gain && before.velocity_gain == now.velocity_gain) return;
+    motor.impulse = motor.load = 0;  // a hard motor starts from them, a soft one does not
+}
+
+}  // namespace
+
+std::span<const JointParameterInfo> joint_parameters() {
+    return kRows;
+}
+
+const JointParameterInfo& info_of(JointParameter parameter) {
+    return kRows[static_cast<std::size_t>(parameter)];
+}
+
+std::optional<JointParameter> find_joint_parameter(std::string_view name) {
+    for (std::size_t i = 0; i < kRows.size(); ++i)
+        if (name == kRows[i].name) return static_cast<JointParameter>(i);
+    return std::nullopt;
+}
+
+std::string joint_parameter_names() {
+    std::string names;
+    for (const JointParameterInfo& row : kRows) names += std::string(names.empty() ? "" : ", ") + row.name;
+    return names;
+}
+
+Result<> check_joint_parameters(const std::string& robot, const RobotType& type,
+                                const SetJointParameters& order) {
+    if (order.joint.index() >= type.joints.size())
+        return Error{"order for the parameters of a joint that robot '" + robot + "' does not have",
+                     "see `roboss check` for its joints", "no-joint"};
+    const Joint& joint = type.joints[order.joint.index()];
+    if (order.axis < 0 || order.axis >= joint.nv)
+        return Error{"joint '" + joint.name + "' of robot '" + robot + "' has " + std::to_string(joint.nv) +
+                         " degrees of freedom; axis " + std::to_string(order.axis) + " is not one of them",
+                     joint.nv == 0 ? "fixed joints have no parameters" : "count axes from 0", "no-axis"};
+    return AxisCheck(robot, type, order).run();
+}
+
+void apply_joint_parameters(const RobotType& type, const SetJointParameters& order, RobotState& state) {
+    const Joint& joint = type.joints[order.joint.index()];
+    const std::size_t index = type.motor_index(joint, order.axis);
+    if (state.own_dofs.empty()) state.own_dofs = axes_of(type);
+    Dof& dof = state.own_dofs[index];
+    const Dof before = dof;
+    if (order.reset) dof = type.dof(joint, order.axis);
+    for (const JointParameterValue& one : order.values) dof.*info_of(one.parameter).member = one.value;
+    fit_motor(before, dof, state.motors[index]);
+    if (order.reset || dof.armature != before.armature) renew_mobility(type, state.own_dofs);
+    if (state.own_dofs == axes_of(type)) state.own_dofs.clear();
+}
+
+std::vector<Dof> axes_of(const RobotType& type) {
+    std::vector<Dof> axes;
+    axes.reserve(type.motor_count());
+    axes = type.dofs;
+    for (const LoopJoint& loop : type.loops) axes.insert(axes.end(), loop.dofs.begin(), loop.dofs.end());
+    return axes;
+}
+
+bool may_own(const RobotType& type, std::span<const Dof> own) {
+    if (own.empty()) return true;
+    const std::vector<Dof> axes = axes_of(type);
+    if (own.size() != axes.size()) return false;
+    for (std::size_t i = 0; i < own.size(); ++i) {
+        for (std::size_t p = 0; p < kJointParameters; ++p) {
+            const double value = own[i].*kRows[p].member;
+            if (value != axes[i].*kRows[p].member && !is_sound(static_cast<JointParameter>(p), value))
+                return false;
+        }
+        if (!are_within(own[i], axes[i])) return false;
+        const bool no_rotor = i >= type.dofs.size() || !type.elimination.empty();
+        if (no_rotor && own[i].armature != axes[i].armature) return false;
+        if (!(own[i].inverse_inertia >= 0 && std::isfinite(own[i].inverse_inertia))) return false;
+    }
+    return true;
+}
+
+}  // namespace roboss
