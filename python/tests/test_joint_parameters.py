@@ -45,7 +45,7 @@ def test_limits_are_set_one_by_one_or_together():
     assert refused.value.code == "bad-parameter" and arm.parameters["lower"][0, 0] != 0.3
 
 
-def test_damping_slows_the_cars_that_have_it():
+def test_a_bound_of_effort_slows_the_cars_that_have_it():
     sim = roboss.Simulation(roboss.example("crossroads.sdf"))
     cars = sim.robots("car_*")
     cars[:8].parameters["max_effort"] = 0.01                           # too weak to turn the wheels as ordered
