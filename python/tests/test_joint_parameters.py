@@ -22,16 +22,16 @@ def test_they_are_those_of_the_file_at_first(cars):
 
 def test_what_is_assigned_is_there_at_once_and_alone(cars):
     sim, friction = cars.simulation, cars.parameters["friction"].copy()
-    before = sim.hash
+    before = sim.state_hash
     wanted = np.arange(64).reshape(16, 4) / 100
     cars.parameters["damping"] = wanted
-    assert np.array_equal(cars.parameters["damping"], wanted) and sim.hash != before
+    assert np.array_equal(cars.parameters["damping"], wanted) and sim.state_hash != before
     assert np.array_equal(cars.parameters["friction"], friction)
     cars[3].parameters.set(["front_left"], damping=7, friction=0.5)
     assert cars[3].parameters["damping"][0, 0] == 7 and cars[3].parameters["damping"][0, 1] == wanted[3, 1]
     assert cars[4].parameters["friction"][0, 0] == friction[4, 0]
     cars.parameters.reset()
-    assert sim.hash == before
+    assert sim.state_hash == before
 
 
 def test_limits_are_set_one_by_one_or_together():
@@ -45,7 +45,7 @@ def test_limits_are_set_one_by_one_or_together():
     assert refused.value.code == "bad-parameter" and arm.parameters["lower"][0, 0] != 0.3
 
 
-def test_damping_slows_the_cars_that_have_it():
+def test_a_bound_of_effort_slows_the_cars_that_have_it():
     sim = roboss.Simulation(roboss.example("crossroads.sdf"))
     cars = sim.robots("car_*")
     cars[:8].parameters["max_effort"] = 0.01                           # too weak to turn the wheels as ordered
@@ -72,17 +72,17 @@ def test_saves_and_resets():
     sim = roboss.Simulation(roboss.example("crossroads.sdf"))
     cars = sim.robots("car_*")
     cars.parameters["friction"] = 0.05
-    save, hash_ = sim.save(), sim.hash
+    save, hash_ = sim.save(), sim.state_hash
     cars.set_joint_targets(5.0)
     sim.step(50)
-    after = sim.hash
+    after = sim.state_hash
     sim.reset()
     assert np.array_equal(cars.parameters["friction"], cars.parameters.of_file("friction"))
     sim.restore(save)
-    assert sim.hash == hash_ and np.all(cars.parameters["friction"] == 0.05)
+    assert sim.state_hash == hash_ and np.all(cars.parameters["friction"] == 0.05)
     cars.set_joint_targets(5.0)
     sim.step(50)
-    assert sim.hash == after
+    assert sim.state_hash == after
 
 
 def test_of_a_batch_each_simulation_has_its_own():
@@ -96,7 +96,7 @@ def test_of_a_batch_each_simulation_has_its_own():
     for some in (cars, alone.robots("car_*")):
         some.set_joint_targets(8.0)
     batch.step(100), alone.step(100)
-    assert batch[1].hash == alone.hash and batch[2].hash != alone.hash
+    assert batch[1].state_hash == alone.state_hash and batch[2].state_hash != alone.state_hash
     cars.parameters.reset(["front_left"])
     assert np.all(cars.parameters["damping"][..., 0] == cars.parameters.of_file("damping")[..., 0])
 
@@ -105,12 +105,12 @@ def test_of_a_batch_each_simulation_has_its_own():
     ("damping", -1, "bad-parameter"), ("friction", np.nan, "not-finite"), ("position_gain", np.inf, "not-finite"),
     ("armature", 1e13, "beyond-limit"), ("limit_stiffness", 0, "bad-parameter")])
 def test_numbers_that_no_joint_has_are_refused(cars, name, value, code):
-    before = cars.simulation.hash
+    before = cars.simulation.state_hash
     values = np.array(cars.parameters.of_file("damping")) + 0.1
     values[11, 2] = value
     with pytest.raises(roboss.OrderError) as refused:
         cars.parameters[name] = values
-    assert refused.value.code == code and "car_11" in str(refused.value) and cars.simulation.hash == before
+    assert refused.value.code == code and "car_11" in str(refused.value) and cars.simulation.state_hash == before
 
 
 def test_wrong_names_and_shapes(cars):
