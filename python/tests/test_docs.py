@@ -10,11 +10,12 @@ import pytest
 import roboss
 import roboss.analysis
 from conftest import BLOCK, PAGES, REPOSITORY
-from roboss import batch, builder, camera, envs, kinematics, robots, run, sensors, simulation, trajectories, view, world
+from roboss import (batch, builder, camera, envs, kinematics, padded, robots, run, sensors, simulation, terrain, trajectories,
+                    view, world)
 from roboss.analysis import recorder, recording
 from roboss.envs import city, city_driver, parallel, single, soccer
 
-MODULES = [roboss, batch, builder, camera, world, run, simulation, robots, sensors, kinematics, trajectories, view]
+MODULES = [roboss, batch, padded, terrain, builder, camera, world, run, simulation, robots, sensors, kinematics, trajectories, view]
 MODULES += [roboss.analysis, recorder, recording, envs, city, city_driver, parallel, single, soccer]
 
 
