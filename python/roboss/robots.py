@@ -96,9 +96,16 @@ class Robots:
     def _joint_facts(self) -> TypeFacts:
         """The facts, of robots that have joints in common."""
         facts = self._facts
-        if not facts.axes and len(facts.types) > 1:
-            raise self._mixed("have no joint in common", "select robots with joints of one name")
-        return facts
+        if facts.axes or len(facts.types) < 2:
+            return facts
+        of_first, *of_others = (self._world._facts_of(number).axes for number in self.ids)
+        everywhere = [name for name in of_first if all(name in axes for axes in of_others)]
+        if everywhere:
+            raise self._different("joint", everywhere[0])
+        raise self._mixed("have no joint in common", "select robots with joints of one name")
+
+    def _different(self, kind: str, name: str) -> ArgumentError:
+        return self._mixed(f"have a {kind} '{name}' each, of different kinds", "select robots of one type")
 
     def _mixed(self, fault: str, remedy: str) -> ArgumentError:
         facts = self._facts
@@ -471,7 +478,7 @@ class Robots:
         if len(lacking) == len(self):
             raise unknown(kind, name, known, f" of '{self._facts.name}'")
         if not lacking:
-            raise self._mixed(f"have a {kind} '{name}' each, of different kinds", "select robots of one type")
+            raise self._different(kind, name)
         shown = ", ".join(lacking[:8]) + (" ..." if len(lacking) > 8 else "")
         raise UnknownNameError(f"{len(lacking)} of these {len(self)} robots have no {kind} '{name}': {shown}",
                                "select the others, or a name that all have", "not-shared")

@@ -102,6 +102,21 @@ def test_sensors_of_one_name_and_different_kinds_are_not_shared():
     refused(error, "mixed-types", "laser")
 
 
+def test_joints_of_one_name_and_different_kinds_are_not_shared():
+    def slider(name: str, joint: str, kind: str) -> str:
+        body = "<inertial><mass>1</mass><inertia><ixx>.1</ixx><iyy>.1</iyy><izz>.1</izz></inertia></inertial>"
+        return (f"<model name='{name}'><link name='a'>{body}</link><link name='b'>{body}</link>"
+                f"<joint name='{joint}' type='{kind}'><parent>a</parent><child>b</child><axis><xyz>0 0 1</xyz></axis>"
+                "</joint></model>")
+
+    for joint, words in (("left", ("joint 'left' each", "different kinds")), ("right", ("no joint in common",))):
+        mixed = _robots(slider("turns", "left", "revolute"), slider("slides", joint, "prismatic"))
+        for ask in (lambda: mixed.joints, lambda: mixed.joint_position, lambda: mixed.set_joint_targets(1.0)):
+            with pytest.raises(roboss.ArgumentError) as error:
+                ask()
+            refused(error, "mixed-types", *words)
+
+
 def test_lasers_of_different_sizes_are_a_list():
     ranges = _robots(_rover("a", sensors=_laser()), _rover("b", sensors=_laser(samples=5)))["laser"].read()
     assert [len(row) for row in ranges] == [8, 5]

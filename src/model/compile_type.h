@@ -78,7 +78,7 @@ SensorSpec with_chosen_shapes(SensorSpec sensor, const LinkSpec& link, std::span
 /// Reports sensors that read a joint of another part of their model, or one that is left without motion.
 void check_joints_read(const RobotType& type, const std::string& robot, Diagnostics& diagnostics);
 
-/// Warns of joints whose effort limit is 0, as exporters write it: orders to them are refused.
+/// Warns of joints whose effort or velocity limit is 0, as exporters write it: orders to them are refused.
 void report_powerless(const RobotType& type, const ModelSpec& spec, Diagnostics& diagnostics);
 
 /// Matrices of a robot have an entry for each degree of freedom and each one above it (DofPaths). False, and

@@ -9,6 +9,7 @@
 #include <tuple>
 
 #include "core/fixed_math.h"
+#include "model/powerless_joints.h"
 #include "world/joint_type.h"
 
 namespace roboss {
@@ -130,13 +131,13 @@ struct Check {
         if (!std::isfinite(a.target) || std::isnan(a.max_effort))
             return Error{"order for joint '" + joint.name + "' of " + called(model, order) + " is not finite",
                          kFiniteRemedy, "not-finite"};
-        if (a.mode != MotorMode::kPassive && type.dof(joint, a.axis).max_effort == 0)
-            return Error{
-                "order for joint '" + joint.name + "' of " + called(model, order) +
-                    ": its effort limit is 0, so no motor can move it",
-                "write the greatest effort of its motor (effort=\"...\" of <limit> in URDF), or none",
-                "no-effort"};
-        return check_target("order for joint '" + joint.name + "' of " + called(model, order), a);
+        const std::string what = "order for joint '" + joint.name + "' of " + called(model, order);
+        const Dof& dof = type.dof(joint, a.axis);
+        if (const ZeroLimit* limit = zero_limit(dof.max_effort, dof.max_velocity);
+            limit != nullptr && a.mode != MotorMode::kPassive)
+            return Error{what + ": its " + std::string(limit->name) + " is 0, so no motor can move it",
+                         std::string(limit->remedy), std::string(limit->code)};
+        return check_target(what, a);
     }
     Result<> operator()(const SetJointState& a) const {
         if (a.joint.index() >= type.joints.size())

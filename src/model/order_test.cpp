@@ -54,24 +54,36 @@ TEST_F(CheckOrder, AcceptsWhatMakesSense) {
     EXPECT_EQ(refusal(kTree, SetJoint{joint(kTree, "ball"), 2, MotorMode::kEffort, 0.5, 2}), "");
 }
 
-TEST_F(CheckOrder, RefusesOrdersToAJointWithoutEffortWithTheReason) {
-    World world = empty_world(1e-3);
-    ModelSpec idle = arm();
-    const auto moves = [](const JointSpec& joint) { return !joint.axes.empty(); };
-    JointSpec& joint = *std::ranges::find_if(idle.joints, moves);
-    joint.axes[0].max_effort = 0, joint.axes[0].max_velocity = 0;
-    place(world, idle, "idle");
-    Diagnostics diagnostics;
-    model_ = compile(world, {}, diagnostics);
-    ASSERT_NE(model_, nullptr);
-    ASSERT_EQ(diagnostics.items().size(), 1u);
-    EXPECT_EQ(diagnostics.items()[0].code, "no-effort");
-    EXPECT_NE(diagnostics.items()[0].message.find("'" + joint.name + "'"), std::string::npos);
-    const RobotId robot(std::size_t{0});
-    const JointId id = *model_->type_of(robot).find_joint(joint.name);
-    for (const MotorMode mode : {MotorMode::kVelocity, MotorMode::kPosition, MotorMode::kEffort})
-        expect_refused(robot, SetJoint{id, 0, mode, 0.1, -1}, {joint.name, "effort limit is 0"});
-    EXPECT_EQ(refusal(robot, SetJoint{id, 0, MotorMode::kPassive, 0, -1}), "");
+TEST_F(CheckOrder, RefusesOrdersToAJointWithALimitOfZeroWithTheReason) {
+    struct Case {
+        double effort, velocity;
+        const char *code, *reason;
+    };
+    for (const Case& c : {Case{0, 0, "no-effort", "effort limit is 0"},
+                          {0, 3, "no-effort", "effort limit is 0"},
+                          {5, 0, "no-velocity", "velocity limit is 0"},
+                          {-1, 0, "no-velocity", "velocity limit is 0"}}) {
+        World world = empty_world(1e-3);
+        ModelSpec idle = arm();
+        const auto moves = [](const JointSpec& joint) { return !joint.axes.empty(); };
+        JointSpec& joint = *std::ranges::find_if(idle.joints, moves);
+        joint.axes[0].max_effort = c.effort, joint.axes[0].max_velocity = c.velocity;
+        place(world, idle, "idle");
+        Diagnostics diagnostics;
+        model_ = compile(world, {}, diagnostics);
+        ASSERT_NE(model_, nullptr);
+        ASSERT_EQ(diagnostics.items().size(), 1u) << c.reason;
+        const Diagnostic& warned = diagnostics.items()[0];
+        EXPECT_EQ(warned.severity, Severity::kWarning);
+        EXPECT_EQ(warned.code, c.code);
+        EXPECT_NE(warned.message.find("joint '" + joint.name + "'"), std::string::npos) << warned.message;
+        EXPECT_NE(warned.message.find("so it moves freely"), std::string::npos) << "one joint";
+        const RobotId robot(std::size_t{0});
+        const JointId id = *model_->type_of(robot).find_joint(joint.name);
+        for (const MotorMode mode : {MotorMode::kVelocity, MotorMode::kPosition, MotorMode::kEffort})
+            expect_refused(robot, SetJoint{id, 0, mode, 0.1, -1}, {joint.name, c.reason});
+        EXPECT_EQ(refusal(robot, SetJoint{id, 0, MotorMode::kPassive, 0, -1}), "");
+    }
 }
 
 TEST_F(CheckOrder, TakesStatesOfJointsWithOneNumberForEachAxis) {

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "core/similar.h"
+#include "model/powerless_joints.h"
 #include "ros2/file_line.h"
 #include "ros2/trajectory_goal.h"
 
@@ -49,7 +50,9 @@ bool follows(const RobotType& type, JointId joint) {
 
 bool is_driven(const RobotType& type, JointId id) {
     const Joint& joint = type.joints[id.index()];
-    return joint.nv == 1 && joint.loop < 0 && !follows(type, id) && type.dof(joint, 0).max_effort > 0;
+    if (joint.nv != 1 || joint.loop >= 0 || follows(type, id)) return false;
+    const Dof& dof = type.dof(joint, 0);
+    return zero_limit(dof.max_effort, dof.max_velocity) == nullptr;
 }
 
 std::vector<RobotController> controllers_of(const Controllers& controllers, const RobotType& type,

@@ -158,13 +158,18 @@ class Urdf(RobossTest):
             self.assertAlmostEqual(abs(values["force"][2]), 14.7, delta=1e-3, msg=kind)
             self.assertAlmostEqual(abs(values["torque"][1]), 3.528, delta=1e-3, msg=kind)
 
-    def test_a_joint_without_effort_is_told(self):
-        file = CASES / "zero_effort.urdf"
-        self.assertIn("no-effort", codes(checked(file), "warning"))
-        done = roboss("run", file, "--headless", "--duration", 0.1, *orders(
-            {"t": 0, "robot": "arm", "joint": {"name": "j", "velocity": 1}}))
-        self.assertEqual(done.returncode, 0, done.stderr)
-        self.assertIn("effort limit is 0", done.stdout + done.stderr)
+    def test_a_joint_with_a_limit_of_zero_is_told(self):
+        without_effort = (CASES / "zero_effort.urdf").read_text()
+        file = FOLDER / "zero.urdf"
+        for code, limit, text in (("no-effort", "effort limit is 0", without_effort),
+                                  ("no-velocity", "velocity limit is 0", without_effort.replace('effort="0"', 'effort="5"'))):
+            file.write_text(text)
+            self.assertEqual([code], codes(checked(file), "warning"))
+            for mode in ("velocity", "position", "effort"):
+                done = roboss("run", file, "--headless", "--duration", 0.1, *orders(
+                    {"t": 0, "robot": "arm", "joint": {"name": "j", mode: 1}}))
+                self.assertEqual(done.returncode, 0, done.stderr)
+                self.assertIn(f"order for joint 'j' of robot 'arm': its {limit}", done.stdout + done.stderr)
 
 
 class Sdf(RobossTest):

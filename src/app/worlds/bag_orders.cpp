@@ -14,6 +14,7 @@
 #include "bags/bag.h"
 #include "bags/decompress.h"
 #include "bags/simulated_time.h"
+#include "model/powerless_joints.h"
 #include "ros2/robot_commands.h"
 #include "ros2/stamps.h"
 #include "ros2_types/cdr.h"
@@ -206,7 +207,7 @@ class OrderSink : public bags::Sink {
     /// `why`: its text begins with the topic.
     void fault(const bags::Topic& topic, const bags::Message& message, const Error& why) {
         // The fault of the robot's file, not of the bag, as in an orders file.
-        const bool powerless = why.code == "no-effort";
+        const bool powerless = is_of_zero_limit(why.code);
         fault(topic, powerless ? Severity::kWarning : Severity::kError,
               {fmt::format("message {} of {}", message.number, why.message), why.remedy,
                why.code.empty() ? "bad-order" : why.code});

@@ -14,6 +14,7 @@
 #include "core/hex.h"
 #include "core/similar.h"
 #include "model/addressee.h"
+#include "model/powerless_joints.h"
 #include "model/robot_names.h"
 #include "model/topics.h"
 
@@ -417,7 +418,7 @@ Action parse_action(const json& o, const Model& model, RobotId id) {
 void take(Order order, const Model& model, std::vector<Order>& orders, LineFaults& faults) {
     if (const Result<> checked = check_order(model, order); !checked) {
         // The fault of the robot's file, not of the order: exporters write limits of 0. The other orders run.
-        const bool powerless = checked.error().code == "no-effort";
+        const bool powerless = is_of_zero_limit(checked.error().code);
         faults.add({checked.error().message, checked.error().remedy,
                     powerless ? Severity::kWarning : Severity::kError},
                    model.robots[order.robot.index()].name);

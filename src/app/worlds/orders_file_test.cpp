@@ -61,20 +61,22 @@ TEST(OrdersFile, EveryLevelIsRead) {
     EXPECT_EQ(orders[3].sequence, 6u) << "the line number";
 }
 
-TEST(OrdersFile, AnOrderToAJointWithoutEffortIsLeftOutWithAWarning) {
+TEST(OrdersFile, AnOrderToAJointWithALimitOfZeroIsLeftOutWithAWarning) {
     Diagnostics d;
-    World world = cart_world();
-    world.prototypes[0].joints[0].axes[0].max_effort = 0;
-    const auto model = compile(world, {}, d);
-    Diagnostics found;
-    const auto orders = parse_orders(R"({"t":0,"robot":"cart","joint":{"name":"slide","velocity":1}})"
-                                     "\n"
-                                     R"({"t":0,"robot":"cart","set_velocity":{"linear":[1,0,0]}})",
-                                     "f.jsonl", *model, found);
-    EXPECT_EQ(orders.size(), 1u) << "the other one";
-    ASSERT_EQ(found.items().size(), 1u);
-    EXPECT_EQ(found.items()[0].severity, Severity::kWarning);
-    EXPECT_EQ(found.items()[0].where.line, 1);
+    for (double AxisSpec::*const limit : {&AxisSpec::max_effort, &AxisSpec::max_velocity}) {
+        World world = cart_world();
+        world.prototypes[0].joints[0].axes[0].*limit = 0;
+        const auto model = compile(world, {}, d);
+        Diagnostics found;
+        const auto orders = parse_orders(R"({"t":0,"robot":"cart","joint":{"name":"slide","velocity":1}})"
+                                         "\n"
+                                         R"({"t":0,"robot":"cart","set_velocity":{"linear":[1,0,0]}})",
+                                         "f.jsonl", *model, found);
+        EXPECT_EQ(orders.size(), 1u) << "the other one";
+        ASSERT_EQ(found.items().size(), 1u);
+        EXPECT_EQ(found.items()[0].severity, Severity::kWarning);
+        EXPECT_EQ(found.items()[0].where.line, 1);
+    }
 }
 
 TEST(OrdersFile, AQuaternionIsReadInTheOrderThatItsKeyNames) {
