@@ -7,6 +7,7 @@ import pytest
 
 import roboss
 from conftest import REPOSITORY, ROBOSS
+from roboss.analysis import record_file
 from roboss.outputs import check_output
 
 WORLD = [REPOSITORY / "worlds/crossroads.sdf", "--orders", REPOSITORY / "worlds/crossroads.jsonl"]
@@ -93,6 +94,39 @@ def test_refuses_what_the_branch_does_not_have_and_names_who_does(branched):
     with pytest.raises(roboss.StateError) as error:
         sim.step(300)
     assert error.value.code == "own-way"
+
+
+def test_tables_and_recordings_replace_older_ones_only(tmp_path):
+    world = tmp_path / "world.sdf"
+    roboss.WorldBuilder("w").save(world)
+    for name in ("run.csv", "run.parquet", "run.mcap", "plot.svg", "plot.png", "page.html"):
+        path, kind = tmp_path / name, name.rpartition(".")[2]
+        for text in ("hi", "time_s,robot,link,x\n0,a,b,1\n", "time,a.x\n0,1\n", world.read_text()):
+            path.write_text(text)
+            with pytest.raises(roboss.ArgumentError) as error:
+                check_output(path)
+            assert error.value.code == "other-kind" and path.read_text() == text, kind
+        path.write_text("")
+        check_output(path, reads=[world])
+    (tmp_path / "bag").mkdir()
+    (tmp_path / "data").write_text("1")
+    for name in ("bag", "data"):
+        with pytest.raises(roboss.ArgumentError) as error:
+            check_output(tmp_path / name)
+        assert error.value.code == "output-exists"
+    check_output(tmp_path / "new")
+
+
+def test_a_recorded_table_replaces_no_other_table(tmp_path):
+    table = tmp_path / "my.csv"
+    for text in ("hi", "name,mass\narm,3\n", "time_s,robot,link,x,y,z\n0,arm,base,0,0,0\n"):
+        table.write_text(text)
+        with pytest.raises(roboss.ArgumentError) as error:
+            record_file(WORLD[0], table, "*.z", until=0.01)
+        assert error.value.code == "other-kind" and table.read_text() == text
+    table.unlink()
+    for _ in range(2):
+        assert record_file(WORLD[0], table, "*.z", until=0.01).samples == 2
 
 
 def test_outputs_replace_nothing_else(tmp_path):

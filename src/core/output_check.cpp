@@ -13,31 +13,33 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t kLookedAt = 4096;  // bytes of a file
+constexpr std::size_t kLookedAt = 1u << 16;  // bytes of a file
 
-/// The first bytes of files of a kind, and a text that follows soon; either may be empty.
+/// How files of a kind begin, a text that follows soon, and the name of the outermost element of XML; each
+/// may be empty. In `head`, '\1' stands for any digit.
 struct Kind {
-    std::string_view name, phrase, head, within;
+    std::string_view name, phrase, head, within, root;
 };
 constexpr std::array kKinds{
-    Kind{"trace", "a trace of --trace", "time_s,robot,link,", ""},
-    Kind{"contacts", "a table of --contacts", "time_s,robot_a,", ""},
-    Kind{"reading", "a table of one reading", "name,index,value,unit", ""},
-    Kind{"summary", "a summary of a run", "{\n  \"world\":", ""},
-    Kind{"device summary", "a summary of devices", "{\"calls\":", ""},
-    Kind{"log", "a text to which a log may be added", "", ""},
-    Kind{"svg", "an SVG picture", "", "<svg"},
-    Kind{"png", "a PNG picture", "\x89PNG", ""},
-    Kind{"pdf", "a PDF file", "%PDF", ""},
-    Kind{"npy", "a NumPy array", "\x93NUMPY", ""},
-    Kind{"pcd", "a point cloud", "# .PCD", ""},
-    Kind{"html", "a report", "<!doctype html", ""},
-    Kind{"parquet", "a Parquet file", "PAR1", ""},
-    Kind{"mcap", "an MCAP file", "\x89MCAP", ""},
-    Kind{"rrd", "a Rerun recording", "RRF", ""},
-    Kind{"world", "a world or robot file", "<", ""},
-    Kind{"saved state", "a saved state", "SQLite format 3", "CREATE TABLE checkpoints"},
-    Kind{"figures", "figures of roboss-fuzz", "[", "\"replay\""},
+    Kind{"trace", "a trace of --trace", "time_s,robot,link,", "", ""},
+    Kind{"contacts", "a table of --contacts", "time_s,robot_a,", "", ""},
+    Kind{"reading", "a table of one reading", "name,index,value,unit", "", ""},
+    Kind{"table", "a table of `roboss record`", "# roboss {", "", ""},
+    Kind{"summary", "a summary of a run", "{\n  \"world\":", "", ""},
+    Kind{"device summary", "a summary of devices", "{\"calls\":", "", ""},
+    Kind{"log", "a log of --log", "\1\1\1\1-\1\1-\1\1T\1\1:\1\1:\1\1.\1\1\1Z level=", "", ""},
+    Kind{"svg", "an SVG picture", "<", "", "svg"},
+    Kind{"png", "a PNG picture", "\x89PNG", "", ""},
+    Kind{"pdf", "a PDF file", "%PDF", "", ""},
+    Kind{"npy", "a NumPy array", "\x93NUMPY", "", ""},
+    Kind{"pcd", "a point cloud", "# .PCD", "", ""},
+    Kind{"html", "a report", "<!doctype html", "", "html"},
+    Kind{"parquet", "a Parquet file", "PAR1", "", ""},
+    Kind{"mcap", "an MCAP file of RoBOSS", "\x89MCAP", "roboss", ""},
+    Kind{"rrd", "a Rerun recording", "RRF", "", ""},
+    Kind{"world", "a world or robot file", "<", "", "sdf gazebo robot mujoco"},
+    Kind{"saved state", "a saved state", "SQLite format 3", "CREATE TABLE checkpoints", ""},
+    Kind{"figures", "figures of roboss-fuzz", "[", "\"replay\"", ""},
 };
 
 const Kind& kind_of(std::string_view name) {
@@ -46,15 +48,33 @@ const Kind& kind_of(std::string_view name) {
     return *found;
 }
 
-bool is(const std::string& bytes, const Kind& kind) {
-    return bytes.starts_with(kind.head) && bytes.find(kind.within) != std::string::npos;
+bool begins(std::string_view bytes, std::string_view head) {
+    const auto fits = [](char byte, char expected) {
+        return expected == '\1' ? byte >= '0' && byte <= '9' : byte == expected;
+    };
+    return bytes.size() >= head.size() && std::ranges::equal(bytes.substr(0, head.size()), head, fits);
 }
 
-/// A log is added to its file, and keeps what was there: any text that is nothing else.
-bool takes_log(const std::string& bytes) {
-    const auto other = [&](const Kind& kind) { return kind.name != "log" && is(bytes, kind); };
-    return bytes.find('\0') == std::string::npos && !bytes.starts_with('{') && !bytes.starts_with('[') &&
-           std::ranges::none_of(kKinds, other);
+/// The name of the outermost element of an XML file, behind declarations and comments; empty: there is none.
+std::string_view root_of(std::string_view bytes) {
+    for (std::size_t at = bytes.find('<'); at != std::string_view::npos; at = bytes.find('<', at)) {
+        const std::string_view rest = bytes.substr(at + 1);
+        if (!rest.starts_with('?') && !rest.starts_with('!'))
+            return rest.substr(0, rest.find_first_of(" \t\r\n/>"));
+        at = bytes.find(rest.starts_with("!--") ? "-->" : ">", at);
+    }
+    return {};
+}
+
+bool is_one_of(std::string_view word, std::string_view words) {
+    return !word.empty() &&
+           (' ' + std::string(words) + ' ').find(' ' + std::string(word) + ' ') != std::string::npos;
+}
+
+bool is(std::string_view bytes, const Kind& kind) {
+    if (!kind.root.empty() && bytes.starts_with("\xEF\xBB\xBF")) bytes.remove_prefix(3);
+    return begins(bytes, kind.head) && bytes.find(kind.within) != std::string_view::npos &&
+           (kind.root.empty() || is_one_of(root_of(bytes), kind.root));
 }
 
 bool is_none(const std::string& path) {
@@ -88,7 +108,7 @@ bool may_become(const std::string& path, std::string_view kind) {
     file.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
     if (file.bad() || !file.is_open()) return true;  // opening it for writing says why it cannot be
     bytes.resize(static_cast<std::size_t>(file.gcount()));
-    return kind == "log" ? takes_log(bytes) : is(bytes, kind_of(kind));
+    return is(bytes, kind_of(kind));
 }
 
 void OutputCheck::reads(const std::string& path) {

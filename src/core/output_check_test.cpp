@@ -63,9 +63,42 @@ TEST_F(Outputs, NeverReplaceAFileOfAnotherKind) {
     EXPECT_EQ(code_of(file("orders.jsonl", "{\"t\":1}"), "log"), "other-kind");
     EXPECT_EQ(code_of(file("bytes", std::string("a\0b", 3)), "log"), "other-kind");
     for (const std::string_view kind : file_kinds()) {
-        EXPECT_EQ(may_become(path("notes.txt"), kind), kind == "log") << kind << ": it adds to a text";
+        EXPECT_FALSE(may_become(path("notes.txt"), kind)) << kind;
         EXPECT_EQ(may_become(file("trace.csv", kTrace), kind), kind == "trace") << kind;
     }
+}
+
+TEST_F(Outputs, AreAddedOnlyToALogThatIsOne) {
+    file("kept.log", "2026-11-30T18:32:25.123Z level=info tick=7 event=end code=done\n");
+    EXPECT_EQ(code_of(path("kept.log"), "log"), "");
+    for (const char* text : {"v 0 0 0\nf 1 2 3\n", "hi", "a,b\n1,2\n", "2026-11-30 a diary\n", kTrace})
+        EXPECT_EQ(code_of(file("other", text), "log"), "other-kind") << text;
+}
+
+TEST_F(Outputs, AreXmlOfTheSameRootOnly) {
+    const std::string svg =
+                          file("a.svg",
+                               "<?xml version=\"1.0\"?>\n<!-- <sdf> -->\n<!DOCTYPE svg>\n<svg width=\"1\"/>"),
+                      page = file("a.html", "<!doctype html><html lang=\"en\"><svg/></html>"),
+                      robot = file("a.urdf", "\xEF\xBB\xBF<!-- the arm <svg> --><robot name=\"arm\"/>"),
+                      other = file("a.xml", "<settings><sdf/></settings>");
+    EXPECT_EQ(code_of(svg, "svg"), "");
+    EXPECT_EQ(code_of(page, "html"), "");
+    EXPECT_EQ(code_of(robot, "world"), "");
+    for (const std::string& path : {page, robot, other})
+        EXPECT_EQ(code_of(path, "svg"), "other-kind") << path;
+    for (const std::string& path : {svg, page, other})
+        EXPECT_EQ(code_of(path, "world"), "other-kind") << path;
+    for (const std::string& path : {svg, robot, other})
+        EXPECT_EQ(code_of(path, "html"), "other-kind") << path;
+}
+
+TEST_F(Outputs, ReplaceNoTableOrBagOfAnotherProgram) {
+    EXPECT_EQ(code_of(file("run.csv", "# roboss {\"facts\": {}}\r\ntime,a.x\r\n"), "table"), "");
+    for (const char* text : {"hi", "time,a.x\n0,1\n", "# roboss was here\n", kTrace})
+        EXPECT_EQ(code_of(file("mine.csv", text), "table"), "other-kind") << text;
+    EXPECT_EQ(code_of(file("run.mcap", "\x89MCAP0\r\n ros2 roboss"), "mcap"), "");
+    EXPECT_EQ(code_of(file("bag.mcap", "\x89MCAP0\r\n ros2 libmcap"), "mcap"), "other-kind");
 }
 
 TEST_F(Outputs, ReplaceAnOlderOneOfTheirKindAndWhatIsEmptyOrNew) {

@@ -174,7 +174,7 @@ class Guarded(RobossTest):
         other = FOLDER / "other.sdf"
         shutil.copy(YARD, other)
         self.refused(["run", YARD, "--log", other, "--duration", 0.01, "--headless"], 1, "[other-kind]")
-        for option in ("--trace", "--contacts", "--json", "--picture", "--save"):
+        for option in ("--trace", "--contacts", "--json", "--log", "--picture", "--save"):
             self.refused(["run", YARD, option, notes, "--duration", 0.01, "--headless"], 1, "nothing else is overwritten")
         self.refused(["sense", YARD, "--robot", "old", "--sensor", "x", "-o", YARD], 1)
         self.assertEqual(notes.read_text(), "remember")
@@ -185,12 +185,24 @@ class Guarded(RobossTest):
         self.refused(["replay", journal, "--trace", journal], 1, "[output-is-input]")
         self.assertEqual(roboss("journal", "verify", journal).returncode, 0)
 
+    def test_a_log_is_not_added_to_a_mesh_of_the_world(self):
+        mesh, world = FOLDER / "tet.obj", FOLDER / "mesh.sdf"
+        mesh.write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n")
+        before = mesh.read_text()
+        world.write_text(SDF.format("<world name='w'>" + BOX.format(name="tet", x=0).replace(
+            "<box><size>.4 .4 .4</size></box>", "<mesh><uri>tet.obj</uri></mesh>") + "</world>"))
+        for option in ("--log", "--trace", "--json"):
+            self.refused(["run", world, option, mesh, "--duration", 0.01, "--headless"], 1, "[other-kind]")
+        self.assertEqual(mesh.read_text(), before)
+
     def test_older_outputs_of_the_same_kind_are_replaced(self):
         options = ["--trace", FOLDER / "t.csv", "--contacts", FOLDER / "c.csv", "--json", FOLDER / "s.json",
                    "--log", FOLDER / "l.log", "--picture", FOLDER / "p.svg", "--save", FOLDER / "s.roboss"]
         for _ in range(2):
             done = roboss("run", YARD, *options, "--duration", 0.02, "--headless", "--quiet")
             self.assertEqual(done.returncode, 0, done.stderr)
+        ends = [line for line in (FOLDER / "l.log").read_text().splitlines() if " event=end " in line]
+        self.assertEqual(len(ends), 2, "a log is added to")
 
     def test_two_outputs_have_two_files(self):
         self.refused(["run", YARD, "--trace", FOLDER / "one.csv", "--contacts", FOLDER / "one.csv", "--duration", 0.01,

@@ -5,7 +5,6 @@ import os
 from typing import Iterable, Iterator, NamedTuple, Optional, Union
 
 from .. import _core
-from ..errors import ArgumentError
 from ..names import unknown
 from ..outputs import check_output
 from ..run import Run
@@ -51,8 +50,6 @@ def record_ros2(source: Source, path: Union[str, os.PathLike], patterns: Union[s
     wanted = None if patterns is None else [patterns] if isinstance(patterns, str) else list(patterns)
     run, last, ending = opened(source, start, until, branch)
     check_output(path, reads=[source])
-    if os.path.isdir(path):
-        raise ArgumentError(f"the folder '{os.fspath(path)}' exists", "name a new one, or remove it", "output-exists")
     topics = _Topics(run, wanted)
     topics.check_patterns(later_runs(run, last))
     done = Recorded([], 0, first=run.time, left_out=tuple(topics.left_out))
