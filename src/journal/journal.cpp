@@ -88,7 +88,8 @@ Error Journal::changed(const std::string& row, BranchId branch) const {
 Result<> Journal::read_tables() {
     for (Result<> (Journal::*read)() :
          {&Journal::read_meta, &Journal::read_branches, &Journal::read_checkpoint_entries,
-          &Journal::read_log_bases, &Journal::read_log_heads, &Journal::read_bookmarks})
+          &Journal::read_log_bases, &Journal::read_log_heads, &Journal::read_log_ends,
+          &Journal::read_bookmarks})
         if (Result<> done = (this->*read)(); !done) return done;
     return check_serials();
 }
@@ -342,6 +343,11 @@ Result<SavedRun> Journal::run_with(const Branch& branch, const CheckpointEntry& 
 Journal::Tail Journal::tail(BranchId branch) const {
     const auto found = heads_.find(branch);
     return found == heads_.end() ? Tail{} : found->second.tail;
+}
+
+bool Journal::has_end(BranchId branch) const {
+    const auto found = heads_.find(branch);
+    return found != heads_.end() && found->second.ended == found->second.tail.serial;
 }
 
 Result<> Journal::inspect() const {

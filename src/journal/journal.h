@@ -110,6 +110,9 @@ class Journal {
         std::uint64_t chain = 0;
     };
     Tail tail(BranchId branch) const;
+    /// Its log ends where its writer left it. Else rows that are missing at its end are not noticed: the run
+    /// was killed or still writes, or an older program wrote the file.
+    bool has_end(BranchId branch) const;
     /// Checks every row, checkpoint and Model, and returns the first fault. (open() leaves most checks to
     /// later reads.)
     Result<> inspect() const;
@@ -120,6 +123,7 @@ class Journal {
     /// What the rows of a branch's log say together.
     struct LogHead {
         Tail tail;
+        std::int64_t ended = -1;  // the row that its writer left as the last; -1: none
         Tick committed = -1, end = -1;
         std::uint64_t hash = 0, bytes = 0;
         std::size_t orders = 0;
@@ -139,6 +143,7 @@ class Journal {
     Result<> read_branches();
     Result<> read_log_bases();
     Result<> read_log_heads();
+    Result<> read_log_ends();
     Result<> read_checkpoint_entries();
     Result<> read_bookmarks();
     Result<> check_serials() const;

@@ -28,6 +28,9 @@ const char* const kJournalTables5 =
     "state_hash TEXT, chain TEXT, entries BLOB, row_hash TEXT);"
     "CREATE TABLE bookmarks(id INTEGER PRIMARY KEY, branch INTEGER, tick INTEGER, name TEXT, row_hash TEXT);";
 
+const char* const kJournalEnds =
+    "CREATE TABLE IF NOT EXISTS ends(branch INTEGER PRIMARY KEY, serial INTEGER, chain TEXT, row_hash TEXT);";
+
 const char* const kJournalColumns8 =
     "ALTER TABLE checkpoints ADD COLUMN memory_hash TEXT; ALTER TABLE checkpoints ADD COLUMN serial INTEGER;"
     "ALTER TABLE batches ADD COLUMN entries_hash TEXT;";
@@ -121,6 +124,13 @@ std::uint64_t check_of(const Bookmark& mark) {
     return hash.value();
 }
 
+std::uint64_t check_of(const LogEnd& end) {
+    Hash hash;
+    for (const std::int64_t n : {end.branch, end.tail.serial}) hash.add(static_cast<std::uint64_t>(n));
+    hash.add(end.tail.chain);
+    return hash.value();
+}
+
 Row to_row(const LogBase& base) {
     return {base.branch,       base.serial,        base.planned, base.committed,
             to_hex(base.hash), to_hex(base.chain), base.bytes,   to_hex(check_of(base))};
@@ -128,6 +138,10 @@ Row to_row(const LogBase& base) {
 
 Row to_row(const Bookmark& mark) {
     return {mark.id, mark.branch, mark.tick, mark.name, to_hex(check_of(mark))};
+}
+
+Row to_row(const LogEnd& end) {
+    return {end.branch, end.tail.serial, to_hex(end.tail.chain), to_hex(check_of(end))};
 }
 
 Row to_row(const BatchRow& row, std::uint64_t chain) {

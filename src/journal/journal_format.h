@@ -23,6 +23,8 @@ inline constexpr const char* kAnotherCopy = "take another copy of the file, or s
 extern const char* const kJournalTables;
 /// The tables that format 5 has added.
 extern const char* const kJournalTables5;
+/// Where the logs of branches end, as their writer left them. Added within format 8: a file may be without.
+extern const char* const kJournalEnds;
 /// The columns that format 8 has added, for tables of an older one. Rows from before have NULL there.
 extern const char* const kJournalColumns8;
 
@@ -55,6 +57,11 @@ struct LogBase {
     std::uint64_t chain = 0;
     Blob bytes;
 };
+/// The last row of a branch's log when its writer closed it or went on with another branch.
+struct LogEnd {
+    BranchId branch = 0;
+    Journal::Tail tail;
+};
 BatchRow to_batch_row(const LogBatch& entries);  // low, high, orders, bytes and their hash
 /// Chains a row to those before it: a missing or changed row breaks the chain. It covers the columns and
 /// `bytes_hash`, so that a reader can check all rows without their bytes; of a row without it, the bytes.
@@ -65,9 +72,11 @@ std::uint64_t check_of(const CheckpointRow& row);
 std::uint64_t check_of(const CheckpointEntry& entry, const Blob& memory, const Blob& states);
 std::uint64_t check_of(const LogBase& base);
 std::uint64_t check_of(const Bookmark& mark);
+std::uint64_t check_of(const LogEnd& end);
 
 Row to_row(const LogBase& base);
 Row to_row(const Bookmark& mark);
+Row to_row(const LogEnd& end);
 Row to_row(const BatchRow& row, std::uint64_t chain);
 Row to_row(const Branch& branch);
 /// `states` are stored by their hash, so that a run that is reset often does not store the start each time.
@@ -86,6 +95,8 @@ inline constexpr const char* kInsertBatch =
     "chain, entries) VALUES(?,?,?,?,?,?,?,?,?,?,?)";
 inline constexpr const char* kInsertBase = "INSERT OR REPLACE INTO bases VALUES(?,?,?,?,?,?,?,?)";
 inline constexpr const char* kInsertBookmark = "INSERT INTO bookmarks VALUES(?,?,?,?,?)";
+inline constexpr const char* kInsertEnd = "INSERT OR REPLACE INTO ends VALUES(?,?,?,?)";
+inline constexpr const char* kSelectEnds = "SELECT branch, serial, chain, row_hash FROM ends ORDER BY branch";
 inline constexpr const char* kSelectBases =
     "SELECT branch, serial, planned, committed, state_hash, chain, entries, row_hash FROM bases ORDER BY "
     "branch";

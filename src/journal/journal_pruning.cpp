@@ -100,7 +100,7 @@ Result<> cut_log(Database& db, const JournalPruning::Cut& cut) {
 }
 
 Result<> drop(Database& db, const BranchSpan& branch) {
-    for (const char* table : {"checkpoints", "batches", "bases", "bookmarks"})
+    for (const char* table : {"checkpoints", "batches", "bases", "bookmarks", "ends"})
         if (Result<> r = db.insert(std::string("DELETE FROM ") + table + " WHERE branch = ?", {{branch.id}});
             !r)
             return r;

@@ -7,6 +7,7 @@
 #include "journal/columns.h"
 #include "journal/journal.h"
 #include "journal/journal_format.h"
+#include "wire/model_codec.h"
 
 namespace roboss {
 Result<> Journal::read_meta() {
@@ -144,7 +145,9 @@ Result<> Journal::read_log_bases() {
 Result<> Journal::read_log_heads() {
     Result<std::vector<Row>> rows = db_->select(
         std::string("SELECT branch, serial, planned, committed, state_hash, low, high, orders, ") +
-            (is_sealed() ? "entries_hash, CASE WHEN entries_hash IS NULL THEN entries ELSE x'' END, "
+            // Bytes that log() reads are checked there; of a row without entries it reads none.
+            (is_sealed() ? "entries_hash, CASE WHEN entries_hash IS NULL OR low > high THEN entries ELSE x'' "
+                           "END, "
                          : "NULL, entries, ") +
             "length(entries), chain FROM batches WHERE branch > ? OR (branch = ? AND serial > ?) "
             "ORDER BY branch, serial",
@@ -166,7 +169,9 @@ Result<> Journal::read_log_heads() {
         if (row.serial != head.tail.serial + 1)
             return damaged("row " + std::to_string(head.tail.serial + 1) + " of the log of branch " +
                            std::to_string(row.branch) + " is missing");
-        if (!c.good() || chain != chain_of(head.tail.chain, row)) return changed(name, row.branch);
+        const bool whole =
+            !row.bytes_hash || row.low <= row.high || hash_of_bytes(row.bytes) == *row.bytes_hash;
+        if (!c.good() || chain != chain_of(head.tail.chain, row) || !whole) return changed(name, row.branch);
         head.tail = {row.serial, chain};
         head.orders += static_cast<std::size_t>(row.orders);
         head.bytes += static_cast<std::uint64_t>(bytes);
@@ -180,6 +185,37 @@ Result<> Journal::read_log_heads() {
         b.bytes += head.bytes;
         if (head.committed >= b.committed && head.hash != 0) b.committed = head.committed, b.hash = head.hash;
         b.end = std::max(b.end, head.end);
+    }
+    return Ok{};
+}
+
+/// A log is at least as long as its writer left it. All branches that began before the last one with an end
+/// have one, too.
+Result<> Journal::read_log_ends() {
+    for (auto& entry : heads_) entry.second.ended = -1;
+    const Result<std::vector<Row>> there = db_->select("SELECT 1 FROM sqlite_master WHERE name = 'ends'");
+    if (!there) return damaged(there.error().message);
+    if (there.value().empty()) return Ok{};
+    Result<std::vector<Row>> rows = db_->select(kSelectEnds);
+    if (!rows) return damaged(rows.error().message);
+    auto next = branches_.begin();
+    for (const Row& values : rows.value()) {
+        Columns c(values);
+        LogEnd end;
+        end.branch = c.number(), end.tail.serial = c.number(), end.tail.chain = c.hash();
+        const std::uint64_t check = c.hash();
+        if (!c.good() || check != check_of(end)) return changed("the end of the log", end.branch);
+        if (find(end.branch) == nullptr) continue;  // an older program has pruned it
+        if (next->id != end.branch)
+            return damaged("the end of the log of branch " + std::to_string(next->id) + " is missing");
+        ++next;
+        const Tail has = tail(end.branch);
+        if (has.serial < end.tail.serial)
+            return damaged("row " + std::to_string(has.serial + 1) + " of the log of branch " +
+                           std::to_string(end.branch) + " is missing");
+        if (has.serial == end.tail.serial && has.chain != end.tail.chain)
+            return changed("the end of the log", end.branch);
+        heads_[end.branch].ended = end.tail.serial;
     }
     return Ok{};
 }

@@ -67,6 +67,21 @@ Result<> bring_up_to_date(Database& db) {
     return db.run("COMMIT;");
 }
 
+/// What a file has when a writer opens it, it has for good: also of a run that was killed.
+std::vector<Row> ends_of(const Journal& journal) {
+    std::vector<Row> ends;
+    for (const Branch& b : journal.branches()) ends.push_back(to_row(LogEnd{b.id, journal.tail(b.id)}));
+    return ends;
+}
+
+Result<> mark_ends(Database& db, const std::vector<Row>& ends) {
+    if (Result<> r = db.run(std::string("BEGIN;") + kJournalEnds); !r) return r;
+    Result<> r = db.insert(kInsertEnd, ends);
+    if (r) r = db.run("COMMIT;");
+    if (!r) (void)db.run("ROLLBACK;");
+    return r;
+}
+
 }  // namespace
 
 Result<std::unique_ptr<JournalWriter>> JournalWriter::open(const std::string& path,
@@ -82,6 +97,7 @@ Result<std::unique_ptr<JournalWriter>> JournalWriter::open(const std::string& pa
     writer->db_ = std::move(opened).value();
     const std::int64_t tables = count(*writer->db_, "SELECT count(*) FROM sqlite_master");
     const bool began = tables > 0 && count(*writer->db_, "SELECT count(*) FROM branches") != 0;
+    std::vector<Row> ends;
     if (tables < 0 || began) {  // it is not empty: check the contents
         Result<Journal> journal = Journal::open(path);
         if (!journal) return journal.error();
@@ -90,10 +106,12 @@ Result<std::unique_ptr<JournalWriter>> JournalWriter::open(const std::string& pa
         writer->bookmarks_ = journal.value().bookmarks();
         for (const Bookmark& mark : writer->bookmarks_) writer->last_bookmark_ = mark.id;
         if (Result<> r = bring_up_to_date(*writer->db_); !r) return r.error();
+        ends = ends_of(journal.value());
     }
     if (Result<> r = writer->db_->run(kPragmas); !r) return r.error();
     if (tables == 0)
         if (Result<> r = make_tables(*writer->db_); !r) return r.error();
+    writer->marks_ends_ = mark_ends(*writer->db_, ends).ok();  // not on a full disk: the ends stay open
     writer->thread_ = std::thread([w = writer.get()] { w->serve(); });
     return writer;
 }
@@ -113,6 +131,7 @@ Result<BranchId> JournalWriter::start_branch(Branch branch, const Model& model) 
         waiting_.models.push_back(model_row(model));
         models_.push_back(model.hash);
     }
+    if (branch_ != 0 && marks_ends_) waiting_.ends.push_back(to_row(LogEnd{branch_, tail_}));
     waiting_.branches.push_back(to_row(branch));
     spans_.push_back(
         {branch.id, branch.parent, branch.tick, branch.tick, branch.tick, model.hash, branch.reason});
@@ -266,7 +285,7 @@ void JournalWriter::take_in(Pending& pending) {
     pending.entries.append(std::move(waiting_.entries));
     pending.planned = std::max(pending.planned, waiting_.planned);
     if (waiting_.committed >= 0) pending.committed = waiting_.committed, pending.hash = waiting_.hash;
-    for (auto rows : {&Pending::bookmarks, &Pending::bookmarks_removed})
+    for (auto rows : {&Pending::bookmarks, &Pending::bookmarks_removed, &Pending::ends})
         (pending.*rows).insert((pending.*rows).end(), (waiting_.*rows).begin(), (waiting_.*rows).end());
     if (waiting_.checkpoint && pending.branches.empty()) pending.checkpoint = std::move(waiting_.checkpoint);
     pending.given = given_;
@@ -291,6 +310,7 @@ Result<> JournalWriter::write(const Pending& pending) {
 
 Result<> JournalWriter::write_rows(const Pending& pending) {
     if (Result<> r = db_->insert(kInsertModel, pending.models); !r) return r;
+    if (Result<> r = db_->insert(kInsertEnd, pending.ends); !r) return r;
     if (Result<> r = db_->insert(kInsertBranch, pending.branches); !r) return r;
     if (pending.checkpoint) {
         const RunCheckpoint& c = *pending.checkpoint;
@@ -337,10 +357,17 @@ Result<> JournalWriter::close() {
     }
     if (thread_.joinable()) thread_.join();
     const std::lock_guard guard(mutex_);
+    mark_end();
     db_.reset();  // SQLite merges the WAL into the file
     if (lost_) return *lost_;
     if (!waiting_.empty() && trouble_) return *trouble_;
     return Ok{};
+}
+
+/// Of the branch that was written last, unless some of its entries are missing. Without it the end is open.
+void JournalWriter::mark_end() {
+    if (marks_ends_ && branch_ != 0 && waiting_.empty() && !lost_ && !trouble_)
+        (void)db_->insert(kInsertEnd, {to_row(LogEnd{branch_, tail_})});
 }
 
 std::vector<std::string> JournalWriter::take_notices() {

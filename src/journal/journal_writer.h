@@ -85,6 +85,7 @@ class JournalWriter : public RunLog {
         std::optional<RunCheckpoint> checkpoint;
         std::vector<Row> models, branches;  // that begin here
         std::vector<Row> bookmarks, bookmarks_removed;
+        std::vector<Row> ends;    // of logs that go no further
         std::uint64_t given = 0;  // counted with the last of it
         bool empty() const { return !logs() && bookmarks.empty() && bookmarks_removed.empty(); }
         /// Something that belongs to the log of the branch.
@@ -95,6 +96,7 @@ class JournalWriter : public RunLog {
     Result<> write(const Pending& pending);
     Result<> write_rows(const Pending& pending);
     void take_in(Pending& pending);
+    void mark_end();
     void settle(const Result<>& written, Pending& pending);
     void prune();
     void forget(const JournalPruning& done);
@@ -104,6 +106,7 @@ class JournalWriter : public RunLog {
     JournalWriterOptions options_;
     int lock_file_ = -1;
     std::optional<Database> db_;  // of the thread alone, once it runs
+    bool marks_ends_ = false;     // all branches that the file had have their ends in it
     std::uint64_t model_hash_ = 0;
     BranchId branches_ = 0, branch_ = 0;
     std::vector<std::uint64_t> models_;  // hashes of those that have been handed over

@@ -51,7 +51,8 @@ Result<> write(const std::string& path, const Model& model, const SavedRun& run)
     std::vector<Row> meta{{std::string("format"), kJournalFormat},
                           {std::string("version"), program_version()}};
     if (run.world_hash != 0) meta.push_back({std::string(kMetaWorld), to_hex(run.world_hash)});
-    if (Result<> r = db.run(std::string("BEGIN;") + kJournalTables + kJournalTables5); !r) return r;
+    if (Result<> r = db.run(std::string("BEGIN;") + kJournalTables + kJournalTables5 + kJournalEnds); !r)
+        return r;
     if (Result<> r = db.insert("INSERT INTO meta VALUES(?,?)", meta); !r) return r;
     if (Result<> r = seal_meta(db); !r) return r;
     if (Result<> r = db.insert(kInsertModel, {model_row(model)}); !r) return r;
@@ -60,7 +61,9 @@ Result<> write(const std::string& path, const Model& model, const SavedRun& run)
     const Row checkpoint = to_row(entry, encode_memory(run.memory), states, batch.serial);
     if (Result<> r = db.insert(kInsertStates, {states_row(std::move(states))}); !r) return r;
     if (Result<> r = db.insert(kInsertCheckpoint, {checkpoint}); !r) return r;
-    if (Result<> r = db.insert(kInsertBatch, {to_row(batch, chain_of(0, batch))}); !r) return r;
+    const LogEnd end{branch.id, {batch.serial, chain_of(0, batch)}};
+    if (Result<> r = db.insert(kInsertBatch, {to_row(batch, end.tail.chain)}); !r) return r;
+    if (Result<> r = db.insert(kInsertEnd, {to_row(end)}); !r) return r;
     return db.run("COMMIT;");
 }
 

@@ -47,7 +47,8 @@ inline void make_older(const std::string& path, std::int64_t format) {
     }
     std::string change =
         "ALTER TABLE batches DROP COLUMN entries_hash; ALTER TABLE checkpoints DROP COLUMN memory_hash; "
-        "ALTER TABLE checkpoints DROP COLUMN serial; DELETE FROM meta WHERE key = 'check'; UPDATE meta SET "
+        "ALTER TABLE checkpoints DROP COLUMN serial; DROP TABLE ends; DELETE FROM meta WHERE key = 'check'; "
+        "UPDATE meta SET "
         "value = " +
         std::to_string(format) + " WHERE key = 'format';";
     if (format < kFirstPrunableFormat) change += "DROP TABLE bases; DROP TABLE bookmarks;";

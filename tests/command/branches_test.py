@@ -152,6 +152,44 @@ class Branches(RobossTest):
                         ["run", YARD, "--journal", file, "--duration", 1, "--headless"]):
             self.refused(command, 1, "[journal-damaged]", "of the log of branch 2 was changed")
 
+    def changed_copy(self, name, *changes):
+        file = FOLDER / name
+        shutil.copy(self.journal, file)
+        with sqlite3.connect(file) as db:
+            for change in changes:
+                db.execute(change)
+        db.close()
+        return file
+
+    def test_a_missing_end_is_noticed(self):
+        for branch in (1, 5):
+            last = f"SELECT max(serial) FROM batches WHERE branch = {branch}"
+            file = self.changed_copy("short.journal", f"DELETE FROM checkpoints WHERE branch = {branch} AND serial = ({last}) AND serial > 1",
+                                     f"DELETE FROM batches WHERE branch = {branch} AND serial = ({last})")
+            for command in (["journal", "verify", file], ["replay", f"{file}#{branch}"]):
+                self.refused(command, 1, "[journal-damaged]", f"of the log of branch {branch} is missing")
+
+    def test_an_open_end_is_said(self):
+        whole = json.loads(roboss("journal", "verify", self.journal, "--json").stdout)
+        self.assertEqual(whole["open_ends"], [])
+        file = self.changed_copy("open.journal", "DELETE FROM ends WHERE branch = 5")
+        done = roboss("journal", "verify", file)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("branch 5  its end is open", done.stdout)
+        self.assertEqual(json.loads(roboss("journal", "verify", file, "--json").stdout)["open_ends"], [5])
+
+    def test_damage_that_a_replay_meets_late_is_wrong_input_too(self):
+        file = self.changed_copy("late.journal", "UPDATE states SET bytes = zeroblob(length(bytes)) WHERE hash = "
+                                 "(SELECT states FROM checkpoints WHERE branch = 3 ORDER BY tick LIMIT 1)")
+        done = self.refused(["replay", f"{file}#3"], 1, "[journal-damaged]", "the checkpoint at tick 375 of branch 3 was changed")
+        self.assertIn("375 steps", done.stdout, "the summary of what was played")
+
+    def test_a_replay_without_checkpoints_does_not_say_that_they_were_equal(self):
+        done = roboss("replay", self.run_.saved, "--quiet")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("checkpoints       none to compare", done.stdout)
+        self.assertNotIn("all equal", done.stdout)
+
 
 class Guarded(RobossTest):
     """No output replaces an input or a file of another kind."""

@@ -531,6 +531,7 @@ int Run::finish(bool fine, double wall_s) {
     members_->end(over(fine), abandoned_);
     say(writes_to_standard_output() ? stderr : stdout, "{}", to_text(s));
     if (abandoned_) return kProcessesFailed;
+    if (!fine && failure_ && failure_->code == "journal-damaged") return kBadInput;  // wherever it is met
     if (!fine || !written) return kRunFailed;
     return interrupted() ? kInterrupted : kSuccess;
 }
