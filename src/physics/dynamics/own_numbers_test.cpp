@@ -103,7 +103,8 @@ struct Scene {
 };
 
 std::vector<Scene> scenes() {
-    ModelSpec closed = four_bar();  // which joint its loop is cut at hangs on the numbers that its joints have
+    ModelSpec closed =
+        four_bar();  // which joint its loop is cut at hangs on the numbers that its joints have
     for (std::size_t j = 0; j < closed.joints.size(); ++j) {
         Values others = some_numbers(j, true);
         for (JointParameterValue& one : others) one.value *= 1.5;
