@@ -202,9 +202,7 @@ void apply_joint_parameters(const RobotType& type, const SetJointParameters& ord
 }
 
 std::vector<Dof> axes_of(const RobotType& type) {
-    std::vector<Dof> axes;
-    axes.reserve(type.motor_count());
-    axes = type.dofs;
+    std::vector<Dof> axes = type.dofs;
     for (const LoopJoint& loop : type.loops) axes.insert(axes.end(), loop.dofs.begin(), loop.dofs.end());
     return axes;
 }
