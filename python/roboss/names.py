@@ -50,7 +50,7 @@ def whole(what: str, value: Any, least: int = 0, most: int = 2**63 - 1) -> int:
     except TypeError:
         raise ArgumentError(f"{what}: {value!r} is no whole number", "give an int", "bad-type") from None
     if not least <= number <= most:
-        limits = f"{least} or more" if most == 2**63 - 1 else f"{least} to {most}"
+        limits = f"{least} or more" if most == 2**63 - 1 and number < least else f"{least} to {most}"
         raise ArgumentError(f"{what}: {number}", f"give {limits}", "bad-value")
     return number
 

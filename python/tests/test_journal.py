@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import roboss
-from conftest import REPOSITORY, ROBOSS
+from conftest import REPOSITORY, ROBOSS, analysis_command
 from roboss.analysis import record_file
 from roboss.outputs import check_output
 
@@ -94,6 +94,44 @@ def test_refuses_what_the_branch_does_not_have_and_names_who_does(branched):
     with pytest.raises(roboss.StateError) as error:
         sim.step(300)
     assert error.value.code == "own-way"
+
+
+def test_commands_take_the_branch_that_a_remedy_names(tmp_path):
+    journal = tmp_path / "two.journal"
+    run(*WORLD, "--duration", "0.3", "--journal", journal)
+    run(*WORLD, "--from", f"{journal}@0.1", "--journal", journal, "--duration", "0.1")
+    table, picture, page = (tmp_path / name for name in ("run.csv", "plot.png", "report.html"))
+    words = {"record": ["car_3.pose", "-o", str(table)], "plot": ["car_3.z", "-o", str(picture)],
+             "analyse": ["--robot", "car_3", "-o", str(page)]}
+    for command, more in words.items():
+        start = [command, "walker"] if command == "analyse" else [command]
+        ended, _, errors = analysis_command(*start, str(journal), *more, "--until", "0.28")
+        place = f"{journal}#1@0.28"
+        assert ended == 1 and "[no-such-time]" in errors and f"branch 1 has it: {place}" in errors
+        for source, options in ((place, []), (f"{journal}#1", ["--until", "0.28"]), (str(journal), ["--branch", "1", "--until", "0.28"])):
+            ended, _, errors = analysis_command(*start, source, *more, *options)
+            assert ended == 0, (source, errors)
+        ended, _, errors = analysis_command(*start, place, *more, "--branch", "2")
+        assert ended == 1 and "[bad-value]" in errors
+    assert record_file(f"{journal}#1@0.28", table, "car_3.x").last == pytest.approx(0.28)
+    assert record_file(f"{journal}#2", table, "car_3.x").last == pytest.approx(0.2)
+    with pytest.raises(roboss.JournalError) as error:
+        record_file(f"{journal}#7", table, "car_3.x")
+    assert error.value.code == "no-branch"
+    other = tmp_path / "a#1.csv"
+    record_file(f"{journal}#2", other, "car_3.x")
+    assert roboss.analysis.record(other, "car_3.x").time[-1] == pytest.approx(0.2)  # a file by its whole name
+    with pytest.raises(roboss.ArgumentError) as error:
+        record_file(f"{tmp_path}/none.journal#1", table, "car_3.x")
+    assert error.value.code == "no-file"
+
+
+def test_a_step_that_is_too_long_is_not_told_to_be_above_0():
+    sim = roboss.Simulation(roboss.load(WORLD[0]))
+    for ticks, remedy in ((2**70, f"give 0 to {2**63 - 1}"), (-1, "give 0 or more")):
+        with pytest.raises(roboss.ArgumentError) as error:
+            sim.step(ticks)
+        assert error.value.remedy == remedy and sim.tick == 0
 
 
 def test_tables_and_recordings_replace_older_ones_only(tmp_path):

@@ -4,6 +4,7 @@ import json
 import os
 import shutil
 import struct
+import time
 import unittest
 import zlib
 from pathlib import Path
@@ -51,11 +52,23 @@ class Snapshot(RobossTest):
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertEqual(pixels(file)[:2], (400, 300))
 
+    def test_without_the_page_it_is_refused_at_once(self):
+        nothing = FOLDER / "no_page"
+        nothing.mkdir(exist_ok=True)
+        began = time.monotonic()
+        self.refused(["snapshot", WORLDS / "pile.sdf", "-o", FOLDER / "none.png", "--web", nothing], 1, "[no-page]",
+                     f"is not in the folder {nothing}", "tools/build.sh release web")
+        self.assertLess(time.monotonic() - began, 30, "it does not wait for a page that is not there")
+
     def test_without_a_browser_it_is_refused_with_a_remedy(self):
+        page = FOLDER / "page"
+        page.mkdir(exist_ok=True)
+        (page / "index.html").write_text("<!doctype html>")
         before = dict(os.environ)
         os.environ["ROBOSS_BROWSER"] = "/nowhere/chromium"
         try:
-            self.refused(["snapshot", WORLDS / "pile.sdf", "-o", FOLDER / "none.png"], 3, "[browser-ended]", "remedy")
+            self.refused(["snapshot", WORLDS / "pile.sdf", "-o", FOLDER / "none.png", "--web", page], 3, "[browser-ended]",
+                         "remedy")
         finally:
             os.environ.clear()
             os.environ.update(before)

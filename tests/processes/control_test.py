@@ -158,7 +158,7 @@ class Control(unittest.TestCase):
                 self.ask(cluster, "remove", name)
                 removed = self.step(cluster, 20)
                 self.assertNotIn(name, removed["robots"])
-                self.assertIn("1 robots restored", self.ask(cluster, "restore", name))
+                self.assertIn("1 robot restored", self.ask(cluster, "restore", name))
                 restored = self.step(cluster, 20)
                 self.assertEqual(restored["robots"][-1], name)
                 self.ask(cluster, "restore", name, code=3)

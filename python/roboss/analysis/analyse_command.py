@@ -8,8 +8,8 @@ import numpy as np
 
 from ..errors import ArgumentError
 from .command import Parser, Progress, check_file
-from .recorder import is_journal, record, ways
-from .record_command import add_common
+from .record_command import add_branch, add_common
+from .recorder import is_journal, located, record, ways
 from .recording import SUFFIXES, Recording, read, write
 
 _ARM = """Examples:
@@ -78,6 +78,7 @@ def parser() -> Parser:
     walker.add_argument("--mass", type=float, metavar="KG", help="of the robot (default: as recorded)")
     walker.add_argument("--from", type=float, dest="start", metavar="S", help="first time (default: all)")
     walker.add_argument("--until", type=float, metavar="S", help="last time")
+    add_branch(walker)
     walker.add_argument("--every", type=float, default=0.0, metavar="S", help="of a journal or world (default: each tick)")
     return result
 
@@ -92,6 +93,8 @@ def _kind(kinds: Any, name: str, what: str, examples: str, source: str) -> Parse
 
 
 def run(options: Any) -> Any:
+    if options.kind == "walker":
+        options.source, options.branch, options.until = located(options.source, options.branch, options.until)
     check_file(options.output, "html", [options.source, *getattr(options, "exchange", [])])
     report = {"arm": _arm, "vehicle": _vehicle, "walker": _walker}[options.kind](options, Progress("analyse", options.quiet))
     report.write(options.output)
@@ -223,8 +226,8 @@ def _walker(options: Any, progress: Progress) -> Any:
     robot = options.robot
     patterns = [f"{robot or '*'}.*.effort", f"{robot or '*'}.*.velocity", f"{robot or '*'}.pose"]
     recording = record(options.source, patterns, until=options.until, every=options.every, start=options.start,
-                       progress=lambda now, end: progress(f"{now:.2f} of {end:.2f} s"))
-    progress.note_if(ways(options.source))
+                       branch=options.branch, progress=lambda now, end: progress(f"{now:.2f} of {end:.2f} s"))
+    progress.note_if(ways(options.source, options.branch))
     robots = {name[:-len(".pose")] for name in recording.variables if name.endswith(".pose")}
     robots = {name for name in robots if any(v.startswith(name + ".") and v.endswith(".effort") for v in recording.variables)}
     if robot is None and len(robots) != 1:

@@ -5,8 +5,8 @@ from typing import Any
 
 from ..errors import ArgumentError
 from .command import Parser, Progress, check_file
-from .recorder import record, ways
-from .record_command import add_common
+from .record_command import add_branch, add_common
+from .recorder import located, record, ways
 
 _EXAMPLES = """Examples:
   roboss plot run.parquet car_3.speed 'arm.*.effort'       one diagram for each unit, into plot.png
@@ -25,6 +25,7 @@ def parser() -> Parser:
     result.add_argument("--every", type=float, default=0.01, metavar="S", help="of a journal or world (default: 0.01)")
     result.add_argument("--from", type=float, dest="start", metavar="S", help="first time")
     result.add_argument("--until", type=float, metavar="S", help="last time")
+    add_branch(result)
     add_common(result)
     return result
 
@@ -33,12 +34,13 @@ def run(options: Any) -> Any:
     from . import pictures
     if not options.output.endswith((".png", ".svg", ".pdf")):
         raise ArgumentError(f"a picture named '{options.output}'", "end the name in .png, .svg or .pdf", "unknown-format")
+    options.source, options.branch, options.until = located(options.source, options.branch, options.until)
     check_file(options.output, reads=[options.source])
     progress = Progress("plot", options.quiet)
     patterns = options.variables + ([options.against] if options.against else [])
     recording = record(options.source, patterns, until=options.until, every=options.every, start=options.start,
-                       progress=lambda now, end: progress(f"{now:.2f} of {end:.2f} s"))
-    progress.note_if(ways(options.source))
+                       branch=options.branch, progress=lambda now, end: progress(f"{now:.2f} of {end:.2f} s"))
+    progress.note_if(ways(options.source, options.branch))
     pictures.save(pictures.plot(recording, options.variables, against=options.against, title=options.title), options.output)
     numbers = recording.select(options.variables)
     rows = [{"column": recording.columns[n].name, "unit": recording.columns[n].unit, "min": float(values.min()),

@@ -9,7 +9,7 @@ from typing import Any, Sequence
 
 from ..errors import ArgumentError
 from .command import Parser, Progress, check_file
-from .recorder import Recorded, check_order, is_journal, journal_of_run, opened, record_file, ways, world_of
+from .recorder import Recorded, check_order, is_journal, journal_of_run, located, opened, record_file, ways, world_of
 from .recording import WRITTEN, check_package, existing
 from .ros2_recorder import record_ros2, topics_of
 from .variables import Variables
@@ -29,6 +29,7 @@ Examples:
   roboss record example:city 'car_*.speed' --until 10 -o city.parquet
   roboss record worlds/crossroads.sdf '*.pose' --until 10 --orders worlds/crossroads.jsonl -o run.mcap
   roboss record run.journal 'arm.*.effort' --every 0.001 -o efforts.parquet        afterwards, from a journal
+  roboss record 'run.journal#2@1.5' -o second.csv                                  branch 2 up to 1.5 s
   roboss record worlds/cameras.sdf 'rover.**' --until 5 --every 0.1 -o run.rrd     robots, images and scans for Rerun
   roboss plot run.parquet car_3.speed
   roboss record worlds/crossroads.sdf --ros2 --until 10 -o run.mcap         topics of ROS 2, for Foxglove, Lichtblick, rosbags
@@ -52,11 +53,16 @@ def parser() -> Parser:
     result.add_argument("--every", type=float, default=0.01, metavar="S", help="time between two samples (default: 0.01)")
     result.add_argument("--from", type=float, dest="start", metavar="S", help="time of the first sample (default: the first)")
     result.add_argument("--until", type=float, metavar="S", help="time of the last sample (default: the end of the journal)")
-    result.add_argument("--branch", type=int, metavar="N", help="of a journal (default: the youngest)")
+    add_branch(result)
     result.add_argument("--orders", metavar="FILE", help="orders for the robots of a world, a file or a bag, as of `roboss run`")
     result.add_argument("--client", action="append", default=[], metavar="LIB", help="a control program, as of `roboss run`")
     add_common(result)
     return result
+
+
+def add_branch(to: Parser) -> None:
+    """For what takes a journal, which may also be named FILE#BRANCH@TIME."""
+    to.add_argument("--branch", type=int, metavar="N", help="of a journal, also named FILE#N (default: the youngest)")
 
 
 def add_common(to: Parser) -> None:
@@ -70,6 +76,7 @@ def run(options: Any) -> Any:
         raise ArgumentError(f"a time of {options.every} s between samples", "give one above 0", "bad-value")
     if not options.list:
         _check_name(options)
+    options.source, options.branch, options.until = located(options.source, options.branch, options.until)
     named, options.source = options.source, existing(world_of(options.source))
     if not options.list:
         check_file(options.output, reads=[options.source, options.orders, *options.client])

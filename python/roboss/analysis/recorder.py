@@ -3,6 +3,7 @@ from __future__ import annotations
 
 import json
 import os
+import re
 import subprocess
 import tempfile
 import warnings
@@ -28,6 +29,7 @@ Progress = Callable[[float, float], None]  # gets the time and the end, s
 _PROGRAM = Path(__file__).parents[1] / "program" / "bin" / "roboss"
 _EXAMPLE = "example:"
 _SQLITE = b"SQLite format 3\0"
+_PLACE = re.compile(r"(.+?)(?:#(\d+))?(?:@(\d+(?:\.\d*)?))?")  # FILE[#BRANCH][@TIME]
 
 
 def record(source: Source, patterns: Union[str, Iterable[str], None] = None, *, until: Optional[float] = None,
@@ -36,7 +38,7 @@ def record(source: Source, patterns: Union[str, Iterable[str], None] = None, *, 
     """Records variables of a run.
 
     Args:
-        source: a journal (its path, or a Journal), which is replayed; a world (its path, or a World), which is run; a
+        source: a journal (its path, also as FILE#BRANCH and FILE@UNTIL, or a Journal), which is replayed; a world (its path, or a World), which is run; a
             Simulation, which is stepped on; or the path of a recording, of which a part is taken.
         patterns: of variables, as of Variables; None: all.
         until: time of the last sample, s; None: the end of the journal.
@@ -110,7 +112,7 @@ def record_file(source: Source, path: Union[str, os.PathLike], patterns: Union[s
         ends = (float(part.time[0]), float(part.time[-1])) if len(part.time) else (0.0, 0.0)
         return Recorded(list(part.variables), len(part.columns), len(part.time), *ends)
     run, last, ending = opened(source, start, until, branch)
-    check_output(path, reads=[source])
+    check_output(path, reads=[located(source, branch, until)[0]])
     takes_messages = Path(path).suffix != ".csv"
     variables = variables_of(run, last, patterns, messages=takes_messages, every=_ticks(run, every) * run.dt)
     names = [*dict.fromkeys(c.variable for c in variables.columns), *(m.name for m in variables.messages.variables)]
@@ -141,6 +143,7 @@ def later_runs(run: Run, last: float) -> list[Run]:
 
 def ways(source: Source, branch: Optional[int] = None) -> str:
     """Through which branches a journal leads, in words, if there are several; else empty."""
+    source, branch, _ = located(source, branch, None)
     if isinstance(source, (World, Simulation)) or not (isinstance(source, Journal) or is_journal(source)):
         return ""
     parts = (source if isinstance(source, Journal) else Journal(source)).lineage(branch)
@@ -205,6 +208,25 @@ def is_journal(path: Union[str, os.PathLike]) -> bool:
         return False
 
 
+def located(source: Source, branch: Optional[int], until: Optional[float]) -> tuple[Source, Optional[int], Optional[float]]:
+    """The source, the branch, and the time of the last sample, s. A journal may be named FILE#BRANCH@TIME, as other commands
+    take it (docs/journal.md). A file that exists under the whole name is that file.
+
+    Raises:
+        ArgumentError: the name and `branch` or `until` differ (code "bad-value").
+    """
+    if isinstance(source, (World, Simulation, Journal)) or os.path.exists(source):
+        return source, branch, until
+    found = _PLACE.fullmatch(os.fspath(source))
+    if not found or not is_journal(found[1]):
+        return source, branch, until
+    for option, named, value in (("--branch", found[2], branch), ("--until", found[3], until)):
+        if named is not None and value is not None and float(named) != value:
+            raise ArgumentError(f"'{os.fspath(source)}' and {option} {value:g}", f"leave {option} out, or name the file alone",
+                                "bad-value")
+    return (found[1], branch if found[2] is None else int(found[2]), until if found[3] is None else float(found[3]))
+
+
 def opened_world(path: Union[str, os.PathLike], **options) -> World:
     """load(), without its warnings: a recording is not the place for them (`roboss check` has them)."""
     return quietly_loaded(existing(world_of(path)), **options)
@@ -236,6 +258,7 @@ def quietly_loaded(world: Union[str, os.PathLike], **options) -> World:
 def opened(source: Source, start: Optional[float], until: Optional[float],
            branch: Optional[int]) -> tuple[Run, float, str]:
     """The run at its first sample, the time of the last, and what it is."""
+    source, branch, until = located(source, branch, until)
     if not isinstance(source, (World, Simulation, Journal)):
         source = existing(world_of(source))
     check_order(start, until)

@@ -8,7 +8,7 @@ from .. import _core
 from ..names import unknown
 from ..outputs import check_output
 from ..run import Run
-from .recorder import Progress, Recorded, Source, later_runs, opened, samples
+from .recorder import Progress, Recorded, Source, later_runs, located, opened, samples
 from .recording import matches_path
 
 
@@ -49,7 +49,7 @@ def record_ros2(source: Source, path: Union[str, os.PathLike], patterns: Union[s
     """
     wanted = None if patterns is None else [patterns] if isinstance(patterns, str) else list(patterns)
     run, last, ending = opened(source, start, until, branch)
-    check_output(path, reads=[source])
+    check_output(path, reads=[located(source, branch, until)[0]])
     topics = _Topics(run, wanted)
     topics.check_patterns(later_runs(run, last))
     done = Recorded([], 0, first=run.time, left_out=tuple(topics.left_out))

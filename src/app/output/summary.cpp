@@ -145,7 +145,9 @@ std::string to_text(const Summary& s) {
     if (s.replayed)
         text += s.replayed->differs
                     ? fmt::format("checkpoints       {} equal, the next one differs\n", s.replayed->equal)
-                    : fmt::format("checkpoints       {} compared, all equal\n", s.replayed->equal);
+                : s.replayed->equal > 0
+                    ? fmt::format("checkpoints       {} compared, all equal\n", s.replayed->equal)
+                    : "checkpoints       none to compare behind the start\n";
     if (!s.journal.empty())
         text += fmt::format("journal           {}, {:.1f} MB (--journal-keep limits it)\n", s.journal,
                             1e-6 * static_cast<double>(s.journal_bytes));

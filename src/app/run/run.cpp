@@ -171,7 +171,8 @@ bool Run::prepare() {
         return false;
     }
     if (!are_orders_right(order_findings, o_.orders)) return false;
-    if (Result<> found = check_snapshot(o_.snapshot, *model_); !found) return print(found.error()), false;
+    if (Result<> found = check_snapshot(o_.snapshot, o_.viewer.page_folder, *model_); !found)
+        return print(found.error()), false;
     if (Result<> found = check_sense(o_.sense, *model_); !found) return print(found.error()), false;
     world_model_ = model_;
     if (o_.dataset.wanted()) labels_ = label_world(*world, o_.dataset.labels);

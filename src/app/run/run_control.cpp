@@ -26,6 +26,10 @@ std::string first_error(const Diagnostics& found) {
     return "no model";
 }
 
+std::string robot_count(std::size_t count) {
+    return fmt::format("{} robot{}", count, count == 1 ? "" : "s");
+}
+
 Error no_journal() {
     return {"the run has no journal, so earlier moments are not kept",
             "start it with --journal FILE (run.sh --live does)", "no-journal"};
@@ -341,9 +345,8 @@ Run::Done Run::act(const AddModels& add) {
     tell_start(edit.value(), found);
     if (keeps_looks(*edit.value().model))
         visuals_.add({*model_, *edit.value().model, *addition}, std::move(*world), places);
-    return change_model(edit.value(),
-                        fmt::format("{} robots of {} added",
-                                    edit.value().model->robots.size() - model_->robots.size(), add.file));
+    const std::size_t came = edit.value().model->robots.size() - model_->robots.size();
+    return change_model(edit.value(), fmt::format("{} of {} added", robot_count(came), add.file));
 }
 
 Run::Done Run::act(const RemoveRobots& remove) {
@@ -353,7 +356,7 @@ Run::Done Run::act(const RemoveRobots& remove) {
     std::string text = "remove";
     for (std::size_t i = 0; i < std::min(remove.names.size(), kNamedMost); ++i) text += " " + remove.names[i];
     if (remove.names.size() > kNamedMost)
-        text += fmt::format(" and {} more names", remove.names.size() - kNamedMost);
+        text += fmt::format(" and {} more", remove.names.size() - kNamedMost);
     const RemovedRobots::Removal removal{model_, edit.value().now, simulation_->saved_run().states,
                                          visuals_.worlds_of(*model_)};
     Done done = change_model(edit.value(), text);
@@ -375,7 +378,7 @@ Run::Done Run::act(const CopyRobots& copy) {
     Result<ModelEdit> edit = with_robots(*model_, robots);
     if (!edit) return edit.error();
     if (keeps_looks(*edit.value().model)) visuals_.copy(*model_, *edit.value().model, copy.copies);
-    return change_model(edit.value(), fmt::format("{} robots copied", robots.size()));
+    return change_model(edit.value(), robot_count(robots.size()) + " copied");
 }
 
 Run::Done Run::act(const RestoreRobots& restore) {
@@ -393,7 +396,7 @@ Run::Done Run::act(const RestoreRobots& restore) {
     for (const RemovedRobot& removed : found.value())
         if (keeps_looks(*edit.value().model))
             visuals_.bring_back(*model_, *edit.value().model, removed.worlds);
-    Done done = change_model(edit.value(), fmt::format("{} robots restored", robots.size()), states);
+    Done done = change_model(edit.value(), robot_count(robots.size()) + " restored", states);
     if (done) removed_.forget(restore.names);
     return done;
 }

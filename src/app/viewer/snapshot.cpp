@@ -16,6 +16,7 @@
 #include "app/run/run.h"
 #include "app/viewer/headless_browser.h"
 #include "core/similar.h"
+#include "gateway/page_files.h"
 #include "wire/viewer_protocol.h"
 
 namespace roboss {
@@ -37,7 +38,8 @@ Examples:
   roboss snapshot worlds/city.sdf --client build/release/lib/roboss_city_driver.so --at 12 --camera follow:car_7 --show rays -o car.png
   roboss snapshot worlds/city.sdf --from run.journal@31.2 --at 31.2 --panel inspector --select car_7 --theme dark -o car.png
 
-Exit codes: those of `roboss run`; 3 also if no browser is found or the page does not load.)";
+Exit codes: those of `roboss run`; 1 also if the viewer's page is not installed, 3 if no browser is found or the page
+does not load.)";
 
 std::string encoded(const std::string& text) {
     std::string result;
@@ -163,7 +165,8 @@ void add_snapshot_options(CLI::App& command, SnapshotOptions& o) {
         ->group(group);
 }
 
-Result<> check_snapshot(const SnapshotOptions& options, const Model& model) {
+Result<> check_snapshot(const SnapshotOptions& options, const std::string& page_folder, const Model& model) {
+    if (options.file.empty()) return Ok{};
     const std::filesystem::path folder = std::filesystem::path(options.file).parent_path();
     std::error_code error;
     if (!folder.empty() && !std::filesystem::is_directory(folder, error))
@@ -179,7 +182,13 @@ Result<> check_snapshot(const SnapshotOptions& options, const Model& model) {
         return Error{"--" + key + ": the world has no robot '" + robot + "'",
                      did_you_mean(robot, names, "see `roboss check` for their names"), "no-robot"};
     }
-    return Ok{};
+    if (PageFiles(find_page_folder(page_folder)).there()) return Ok{};
+    return Error{
+        "the viewer's page, which draws the picture, is not " +
+            (page_folder.empty() ? "installed" : "in the folder " + page_folder),
+        "build it with node 18 or later (tools/build.sh release web), install RoBOSS again, or name its "
+        "folder with --web FOLDER; --camera ROBOT/SENSOR needs no page",
+        "no-page"};
 }
 
 Result<> take_snapshot(const SnapshotOptions& options, const std::string& url,

@@ -19,8 +19,8 @@ struct SnapshotOptions {
 };
 void add_snapshot_options(CLI::App& command, SnapshotOptions& options);
 
-/// Whether the robots that the options name are there.
-Result<> check_snapshot(const SnapshotOptions& options, const Model& model);
+/// Before the run: whether the robots that the options name are there, and the viewer's page.
+Result<> check_snapshot(const SnapshotOptions& options, const std::string& page_folder, const Model& model);
 
 /// Takes the picture of the page at `url`; `serve` drives the run meanwhile; false ends it.
 Result<> take_snapshot(const SnapshotOptions& options, const std::string& url,
