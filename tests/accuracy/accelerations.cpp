@@ -105,9 +105,11 @@ RobotState random_state_on_loops(const Model& model, Random& random, double spre
         way[i] = random.uniform(-spread, spread);
     advance_coordinates<double>(type, way, 1.0, state.q);
     EqualityProjection projection;
-    for (int i = 0; i < 5; ++i) projection.close_coordinates(type, state.q);
+    RobotWork work;
+    work.take(type, state);
+    for (int i = 0; i < 5; ++i) projection.close_coordinates(work, state.q);
     for (double& v : state.v) v = random.uniform(-2, 2);
-    projection.close_velocities(type, state.q, state.v);
+    projection.close_velocities(work, state.q, state.v);
     for (std::size_t l = 0; l < type.links.size(); ++l)
         if (type.links[l].body >= 0)
             state.wrenches.push_back({LinkId(l), random.vector(10), random.vector(3), 1000});

@@ -360,8 +360,10 @@ std::vector<RobotState> start_states(const Model& model, const Scene& scene, con
             }
         }
         if (type.has_equalities()) {
+            RobotWork work;
+            work.take(type, state);
             EqualityProjection projection;
-            projection.close_velocities(type, state.q, state.v);
+            projection.close_velocities(work, state.q, state.v);
         }
         if (scene.driven) drive(type, setting, random, state);
         if (scene.zero_effort)
