@@ -4,6 +4,7 @@
 #include "geometry/come_down.h"
 
 #include <algorithm>
+#include <cmath>
 #include <vector>
 
 #include "geometry/collide_general.h"
@@ -109,7 +110,42 @@ class Descent {
     std::vector<std::uint32_t> triangles_;
 };
 
+bool is_closed(const TriangleSurface& surface) {
+    return surface.sides() == SurfaceSides::kSolid && !surface.is_ground();
+}
+
+/// The way to the first triangle above, if it looks up: then the point is below it, inside.
+std::optional<double> out_of_surface(const Vec3& p_W, double top, const TriangleSurface& surface,
+                                     const Transform& X_WS) {
+    std::vector<std::uint32_t> triangles;
+    surface.query(seen_from({p_W, {p_W.x, p_W.y, top}}, X_WS), triangles);
+    std::optional<double> nearest;
+    bool looks_up = false;
+    for (const std::uint32_t number : triangles) {
+        const SurfaceFace face = surface.face(number);
+        const double t = ray_triangle(p_W, {0, 0, 1}, {X_WS * face.v[0], X_WS * face.v[1], X_WS * face.v[2]});
+        if (!std::isfinite(t) || (nearest && t >= *nearest)) continue;
+        nearest = t, looks_up = (X_WS.R * face.n).z > 0;
+    }
+    return looks_up ? nearest : std::nullopt;
+}
+
 }  // namespace
+
+std::optional<double> rise_out(const Vec3& p_W, const Shape& b, const Transform& X_WB) {
+    const bool holds =
+        b.kind != ShapeKind::kPlane && (b.kind != ShapeKind::kSurface || is_closed(*b.surface));
+    const Aabb box = holds ? bounds(b, X_WB) : Aabb();
+    if (!holds || !overlaps(box, {p_W, p_W})) return {};
+    if (b.kind == ShapeKind::kSurface) return out_of_surface(p_W, box.max.z, *b.surface, X_WB);
+    Shape point;
+    point.radius = 0;
+    const Transform X_WP{Mat3::identity(), p_W};
+    const Posed posed_point{point, X_WP}, posed_b{b, X_WB};
+    const ConvexBody body(posed_b);
+    if (best_separation(ConvexBody(posed_point), body, 1e300).s - body.ball() > 0) return {};
+    return onto_body(point, X_WP, box.max.z - p_W.z + 1e-3, 0, body);
+}
 
 std::optional<double> come_down(const Shape& a, const Transform& X_WA, double from, const Shape& b,
                                 const Transform& X_WB) {

@@ -14,4 +14,8 @@ namespace roboss {
 std::optional<double> come_down(const Shape& a, const Transform& X_WA, double from, const Shape& b,
                                 const Transform& X_WB);
 
+/// How far a point that lies in `b` has to move up along z until it is out of it (m, at least 0). nullopt: it
+/// does not lie in it. Nothing lies in planes, height fields and open sheets. To 1e-7 m.
+std::optional<double> rise_out(const Vec3& p_W, const Shape& b, const Transform& X_WB);
+
 }  // namespace roboss

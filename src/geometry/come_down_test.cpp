@@ -54,6 +54,20 @@ TEST(ComeDown, OntoAPlaneFromAboveAndFromBelow) {
     EXPECT_FALSE(come_down(ball(0.2), at({}), 1, plane(), at({}, from_rpy(kPi, 0, 0)))) << "a ceiling";
 }
 
+TEST(ComeDown, APointRisesOutOfTheSolidThatItLiesIn) {
+    const Shape block = box({1, 1, 0.5});
+    EXPECT_NEAR(rise_out({0.3, 0, 1.7}, block, at({0, 0, 2})).value(), 0.8, kClose);
+    EXPECT_FALSE(rise_out({0.3, 0, 1.4}, block, at({0, 0, 2}))) << "below it";
+    EXPECT_FALSE(rise_out({1.1, 0, 2}, block, at({0, 0, 2}))) << "beside it";
+    EXPECT_NEAR(rise_out({0.3, 0, 0.1}, ball(0.5), {}).value(), 0.4 - 0.1, kClose);
+    EXPECT_FALSE(rise_out({0.4, 0.4, 0.4}, ball(0.5), {})) << "in its bounds alone";
+    EXPECT_NEAR(rise_out({0.2, 0, 0}, rod(ShapeKind::kCapsule, 0.3, 1), {}).value(), 1 + std::sqrt(0.05),
+                kClose);
+    EXPECT_FALSE(rise_out({0, 0, -1}, plane(), {}));
+    const double tilt = 0.2;
+    EXPECT_NEAR(rise_out({}, block, at({}, from_rpy(tilt, 0, 0))).value(), 0.5 / std::cos(tilt), kClose);
+}
+
 TEST(ComeDown, OntoConvexShapes) {
     const Shape table = box({1, 1, 0.5});
     EXPECT_NEAR(come_down(box({0.1, 0.1, 0.1}), at({0.9, 0, 2}), 0, table, {}).value(), -1.4, kClose);

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "geometry/come_down.h"
+#include "geometry/convex_body.h"
 #include "model/coordinates.h"
 #include "model/may_collide.h"
 #include "model/robot_state.h"
@@ -49,10 +50,41 @@ void add_shapes(const Model& model, RobotId robot, StandingRobots& standing) {
     }
 }
 
+Vec3 lowest_point(const StandingShape& shape) {
+    const narrow::Posed posed{shape.shape->shape, shape.X_WS};
+    const narrow::ConvexBody body(posed);
+    const Vec3 down{0, 0, -1};
+    return body.centre() + body.support(down) + body.ball() * down;
+}
+
+/// How far up the lowest point of the robots comes out of all solids that it lies in, one above the other.
+double rise_out_of_solids(const Model& model, const std::vector<Aabb>& scenery,
+                          const StandingRobots& robots) {
+    constexpr double kBeyond = 1e-6;  // m, so that it is in the next one, if there is any
+    constexpr int kSolidsMax = 100;
+    const auto lower = [](const StandingShape& a, const StandingShape& b) {
+        return a.box.min.z < b.box.min.z;
+    };
+    const StandingShape& lowest = *std::ranges::min_element(robots.shapes, lower);
+    Vec3 p = lowest_point(lowest);
+    const double start = p.z;
+    for (int k = 0; k < kSolidsMax; ++k) {
+        std::optional<double> way;
+        for (std::size_t i = 0; i < scenery.size() && !way; ++i) {
+            const StaticShape& solid = model.statics[i];
+            if (overlaps(scenery[i], {p, p}) && may_collide(lowest.shape->material, solid.material))
+                way = rise_out(p, solid.shape, solid.X_WS);
+        }
+        if (!way) break;
+        p.z += *way + kBeyond;
+    }
+    return p.z - start;
+}
+
 /// How far the robots have to move along z to touch the highest scenery below.
 std::optional<double> way_down(const Model& model, const std::vector<Aabb>& scenery,
                                const StandingRobots& robots) {
-    const double height = robots.box.max.z - robots.box.min.z;
+    const double height = robots.box.max.z - robots.box.min.z + rise_out_of_solids(model, scenery, robots);
     std::optional<double> way;
     for (std::size_t i = 0; i < scenery.size(); ++i) {
         const StaticShape& below = model.statics[i];

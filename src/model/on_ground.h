@@ -22,8 +22,8 @@ struct OnGround {
 
 /// Moves the robots from `first` on along z, those of a model together and as they are to each other, until
 /// they touch the highest scenery below them. They come down from their own height above where they are, so a
-/// robot that is sunk in is lifted; onto planes and height fields from wherever they are. The Model is not
-/// sealed yet.
+/// robot that is sunk in is lifted; from above a solid that their lowest point lies in; onto planes and
+/// height fields from wherever they are. The Model is not sealed yet.
 OnGround stand_on_ground(Model& model, std::size_t first);
 
 /// A compiled Model with all its robots stood on the ground; reports what report() does.

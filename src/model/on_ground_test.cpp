@@ -91,6 +91,43 @@ TEST(OnGround, ABodyStandsOnAHeightFieldABoxAndAMesh) {
     EXPECT_NEAR(height_of(*c.model, 2), 0.4, 1e-7);
 }
 
+/// A closed box of triangles, around the origin.
+CollisionSpec closed_mesh(const Vec3& half) {
+    auto mesh = std::make_shared<MeshSpec>();
+    for (int i = 0; i < 8; ++i)
+        mesh->vertices.push_back({(i & 1) != 0 ? half.x : -half.x, (i & 2) != 0 ? half.y : -half.y,
+                                  (i & 4) != 0 ? half.z : -half.z});
+    mesh->triangles = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6}, {0, 1, 4}, {1, 5, 4},
+                       {2, 6, 3}, {3, 6, 7}, {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}};
+    CollisionSpec shape = collision(GeometryKind::kMesh, surface(1));
+    shape.geometry.mesh = mesh;
+    return shape;
+}
+
+TEST(OnGround, ABodyInsideASolidStandsOnTopOfIt) {
+    for (const bool is_mesh : {false, true}) {
+        World world = empty_world(1e-3);
+        place(world, scenery(is_mesh ? closed_mesh({5, 5, 1}) : box_shape({10, 10, 2}, surface(1))), "block",
+              {{0, 0, -1}, {}});
+        place(world, scenery(plane_shape()), "far_below", {{0, 0, -9}, {}});
+        place(world, scenery(box_shape({2, 2, 0.5}, surface(1))), "step", {{3, 0, 0.25}, {}});
+        const ModelSpec ball = solid_sphere(1, 0.3, surface(1));
+        for (const double z : {-0.1, -0.5, -1.5})
+            place(world, ball, "ball_" + std::to_string(z), {{-1, 0, z}, {}});
+        place(world, ball, "below", {{-1, 0, -5}, {}});
+        place(world, ball, "under_the_step", {{3, 0, -0.5}, {}});
+        place(world, one_legged(0), "leg", {{0, 3, -0.9}, {}});
+        const Compiled c = compile_on_ground(world);
+        ASSERT_TRUE(c.model);
+        for (const std::size_t i : {0u, 1u, 2u})
+            EXPECT_NEAR(height_of(*c.model, i), 0.3, 1e-7) << is_mesh << i;
+        EXPECT_NEAR(height_of(*c.model, 3), -8.7, 1e-7) << "it does not lie in the block";
+        EXPECT_NEAR(height_of(*c.model, 4), 0.8, 1e-7) << "on the step that stands on the block";
+        EXPECT_NEAR(height_of(*c.model, 5), 0.32, 1e-7);
+        EXPECT_EQ(c.diagnostics.count(Severity::kWarning), 0u);
+    }
+}
+
 TEST(OnGround, AModelOfSeveralRobotsMovesAsOne) {
     World world = empty_world(1e-3);
     place(world, scenery(plane_shape()), "ground");

@@ -10,7 +10,8 @@
 
 namespace roboss {
 
-/// True if the text fits the pattern: `*` stands for any characters, `?` for one.
+/// True if the text fits the pattern: `*` stands for any characters, `?` for one, `[abx-z]` for one of these,
+/// `[!ab]` for one that is none of these. The rules are those of Python's fnmatchcase(); case counts.
 bool fits_pattern(std::string_view text, std::string_view pattern);
 
 /// The robot with this name; else those whose names fit it as a pattern, by RobotId, without message boards.

@@ -33,10 +33,22 @@ TEST(RobotNames, FitPatterns) {
     EXPECT_FALSE(fits_pattern(std::string(5000, 'a'), "*a*a*a*b"));
 }
 
+TEST(RobotNames, FitPatternsWithSetsAsInPython) {
+    for (const char* pattern :
+         {"[XY]12", "X[0-9][0-9]", "X[!a-z]*", "*[2]", "X[]1]2", "[!]]12", "X[-1]2", "X[1-]2"})
+        EXPECT_TRUE(fits_pattern("X12", pattern)) << pattern;
+    for (const char* pattern : {"[xy]12", "X[2-9]2", "X[!1]2", "[X]", "X[12", "X[!0-9]2", "X[]2", "X[9-0]2"})
+        EXPECT_FALSE(fits_pattern("X12", pattern)) << pattern;
+    EXPECT_TRUE(fits_pattern("a[1", "a[1")) << "a bracket that nothing closes";
+    EXPECT_TRUE(fits_pattern("a]", "a[]]"));
+    EXPECT_TRUE(fits_pattern("ababac", "*[b][a]c"));
+}
+
 TEST(RobotNames, ComeInTheOrderOfTheRobots) {
     const auto model = world_of({"X2", "Y1", "X10", "X1"});
     EXPECT_EQ(found(*model, "X*"), (std::vector<std::uint32_t>{0, 2, 3}));
     EXPECT_EQ(found(*model, "X?"), (std::vector<std::uint32_t>{0, 3}));
+    EXPECT_EQ(found(*model, "[XY]1"), (std::vector<std::uint32_t>{1, 3}));
     EXPECT_EQ(found(*model, "Y1"), (std::vector<std::uint32_t>{1}));
     EXPECT_TRUE(found(*model, "Z*").empty());
     EXPECT_TRUE(found(*model, "X").empty());

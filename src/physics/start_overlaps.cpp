@@ -160,8 +160,10 @@ std::string text_of(const Model& model, const StartOverlap& o) {
 const char* remedy_of(const Model& model, const StartOverlap& o) {
     if (o.in == model.robots[o.robot.index()].name)
         return "Start its joints elsewhere, or leave <self_collide> out.";
-    return o.is_scenery ? "Stand it on the ground with --on-ground, or start it elsewhere: <pose>."
-                        : "Start one of the two elsewhere: <pose>.";
+    if (!o.is_scenery) return "Start one of the two elsewhere: <pose>.";
+    return model.type_of(o.robot).free_base
+               ? "Stand it on the ground with --on-ground, or start it elsewhere: <pose>."
+               : "Start it elsewhere: <pose>, or move the joint that fixes it.";
 }
 
 void report(const Model& model, const World* world, const std::vector<StartOverlap>& overlaps,

@@ -70,6 +70,28 @@ void report_world_shapes(const UrdfRobot& robot) {
                               "Put them into a link that a fixed joint holds on 'world'.");
 }
 
+/// Links without mass and shapes that a joint leaves free, or that have no joint at all. A parent of a
+/// floating joint is the place that the joint starts from.
+void report_left_out(const UrdfRobot& robot) {
+    const auto is_parent = [&](const std::string& link) {
+        return std::ranges::any_of(robot.joints,
+                                   [&](const auto& joint) { return parent_of(joint.second) == link; });
+    };
+    for (const auto link : robot.robot.children("link")) {
+        const std::string name = name_of(link);
+        const auto carrier = robot.carrier_of(name);
+        if (name == "world" || !robot.is_left_out(name) || is_parent(name)) continue;
+        robot.diagnostics.warning(
+            robot.where(link), "left-out-link",
+            "link '" + name + "' has no mass, shape or sensor, and " +
+                (carrier ? "joint '" + name_of(carrier) + "' of type 'floating' leaves it free"
+                         : "no joint holds it") +
+                ": it is left out",
+            carrier ? "Give it an <inertial>, or its joint another type, such as \"fixed\"."
+                    : "Give it an <inertial>, or a joint.");
+    }
+}
+
 void write_robot(const UrdfRobot& robot, SdfText& out) {
     auto sdf = out.add({}, "sdf", robot.robot);
     sdf.append_attribute("version") = "1.9";
@@ -83,6 +105,7 @@ void write_robot(const UrdfRobot& robot, SdfText& out) {
         if (std::string_view(part.name()) == "joint") write_joint(robot, part, out, model);
     }
     report_world_shapes(robot);
+    report_left_out(robot);
 }
 
 }  // namespace

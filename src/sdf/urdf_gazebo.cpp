@@ -137,10 +137,24 @@ void extend_joint_by(pugi::xml_node node, SdfText& out, pugi::xml_node to) {
     }
 }
 
+/// "<mu1>, <sensor> 'imu'", of what an extension holds.
+std::string content_of(pugi::xml_node extension) {
+    std::string parts;
+    for (const auto node : extension.children()) {
+        if (node.type() != pugi::node_element) continue;
+        parts += (parts.empty() ? "<" : ", <") + std::string(node.name()) + ">";
+        if (const std::string name = name_of(node); !name.empty()) parts += " '" + name + "'";
+    }
+    return parts;
+}
+
+/// A warning: Gazebo ignores such an extension.
 void report_reference(const UrdfRobot& robot, pugi::xml_node extension) {
+    const std::string content = content_of(extension);
     robot.diagnostics.warning(robot.where(extension), "gazebo-reference",
                               "<gazebo reference=\"" + std::string(extension.attribute("reference").value()) +
-                                  "\"> names neither a link nor a joint; it has no effect",
+                                  "\"> names neither a link nor a joint; it has no effect" +
+                                  (content.empty() ? "" : ": left out " + content),
                               "Write the name of a link or joint, or no reference for the model.");
 }
 

@@ -1,5 +1,9 @@
 // Links of a URDF as SDF: mass, shapes to touch and to see.
+#include <algorithm>
+#include <initializer_list>
+#include <iterator>
 #include <set>
+#include <string_view>
 
 #include "sdf/element_reader.h"
 #include "sdf/urdf_parts.h"
@@ -38,42 +42,67 @@ void write_inertial(const UrdfRobot& robot, pugi::xml_node link, SdfText& out, p
     write_moments(robot, inertial ? inertial : link, out, written);
 }
 
-/// The attributes of a shape as elements, "" in `element`: its text. False: one is missing.
-bool write_sizes(pugi::xml_node shape, std::initializer_list<const char*> sizes, SdfText& out,
-                 pugi::xml_node to) {
-    auto written = out.add(to, shape.name(), shape);
-    for (const char* size : sizes) {
-        if (!shape.attribute(size)) return false;
-        out.add(written, size, shape, shape.attribute(size).value());
-    }
-    return true;
-}
+/// A shape and its sizes, which are attributes in URDF and elements in SDF.
+struct UrdfShape {
+    std::string_view name;
+    std::initializer_list<const char*> sizes;
+};
+const UrdfShape kShapes[] = {
+    {"box", {"size"}},
+    {"sphere", {"radius"}},
+    {"cylinder", {"radius", "length"}},
+    {"capsule", {"radius", "length"}},
+    {"cone", {"radius", "length"}},
+    {"ellipsoid", {"radii"}},
+    {"mesh", {"filename"}},
+};
 
-bool write_mesh(pugi::xml_node mesh, SdfText& out, pugi::xml_node to) {
+void write_mesh(pugi::xml_node mesh, SdfText& out, pugi::xml_node to) {
     auto written = out.add(to, "mesh", mesh);
     out.add(written, "uri", mesh, mesh.attribute("filename").value());
     if (const auto scale = mesh.attribute("scale")) out.add(written, "scale", mesh, scale.value());
-    return static_cast<bool>(mesh.attribute("filename"));
 }
 
-/// False, and a warning: there is no shape that is known.
+/// Writes a shape; or says why it is none: "it has no length".
+std::string write_shape(pugi::xml_node shape, SdfText& out, pugi::xml_node to) {
+    const auto known = std::ranges::find(kShapes, std::string_view(shape.name()), &UrdfShape::name);
+    if (known == std::end(kShapes)) return "is not known";
+    std::string missing;
+    for (const char* size : known->sizes)
+        if (!shape.attribute(size)) missing += (missing.empty() ? "has no " : " and no ") + std::string(size);
+    if (!missing.empty()) return missing;
+    if (known->name == "mesh") return write_mesh(shape, out, to), "";
+    auto written = out.add(to, shape.name(), shape);
+    for (const char* size : known->sizes) out.add(written, size, shape, shape.attribute(size).value());
+    return {};
+}
+
+/// A <collision> that says what it shall be and cannot be that is an error: the robot would pass through
+/// things.
+void report_shape(const UrdfRobot& robot, pugi::xml_node part, const std::string& faults) {
+    const std::string kind = part.name();
+    const bool fails = !faults.empty() && kind == "collision";
+    robot.diagnostics.add(
+        {fails ? Severity::kError : Severity::kWarning, robot.where(part), "urdf-shape",
+         "<" + kind + "> of link '" + name_of(part.parent()) + "'" +
+             (faults.empty() ? " has no shape" : faults) + (fails ? "" : "; it is left out"),
+         "Write <geometry> with a <box size=\"...\">, <sphere radius=\"...\">, <cylinder>, <capsule> or "
+         "<cone "
+         "radius=\"...\" length=\"...\">, <ellipsoid radii=\"...\">, or <mesh filename=\"...\">.",
+         false});
+}
+
+/// False, and a finding: there is no shape that can be used.
 bool write_geometry(const UrdfRobot& robot, pugi::xml_node part, SdfText& out, pugi::xml_node to) {
     auto geometry = out.add(to, "geometry", part.child("geometry") ? part.child("geometry") : part);
+    std::string faults;
     for (const auto shape : part.child("geometry").children()) {
-        const std::string kind = shape.name();
-        if ((kind == "box" && write_sizes(shape, {"size"}, out, geometry)) ||
-            (kind == "sphere" && write_sizes(shape, {"radius"}, out, geometry)) ||
-            ((kind == "cylinder" || kind == "capsule") &&
-             write_sizes(shape, {"radius", "length"}, out, geometry)) ||
-            (kind == "mesh" && write_mesh(shape, out, geometry)))
-            return true;
+        if (shape.type() != pugi::node_element) continue;
+        const std::string fault = write_shape(shape, out, geometry);
+        if (fault.empty()) return true;
+        faults += (faults.empty() ? ": <" : ", <") + std::string(shape.name()) + "> " + fault;
     }
-    robot.diagnostics.warning(robot.where(part), "urdf-shape",
-                              "a <" + std::string(part.name()) + "> of link '" + name_of(part.parent()) +
-                                  "' has no shape that is known; it is left out",
-                              "Write <geometry> with a <box size=\"...\">, <sphere radius=\"...\">, "
-                              "<cylinder> or <capsule radius=\"...\" length=\"...\">, or <mesh "
-                              "filename=\"...\">.");
+    report_shape(robot, part, faults);
     return false;
 }
 

@@ -145,7 +145,7 @@ bool UrdfRobot::is_left_out(const std::string& link) const {
 
 std::string UrdfRobot::sdf_name_of(pugi::xml_node joint) const {
     std::string name = name_of(joint);
-    if (!links.contains(name)) return name;
+    if (!links.contains(name) && name != "world") return name;
     do name += "_joint";
     while (links.contains(name) || joints.contains(name));
     return name;

@@ -31,7 +31,7 @@ struct UrdfRobot {
     bool is_frame(const std::string& link) const;
     /// A link that has no part in what moves: the world, or only a name for a place in it.
     bool is_left_out(const std::string& link) const;
-    /// The name of a joint in SDF, where links and joints share one set of names.
+    /// The name of a joint in SDF, where links and joints share one set of names, which holds "world".
     std::string sdf_name_of(pugi::xml_node joint) const;
 };
 

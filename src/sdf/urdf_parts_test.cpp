@@ -133,11 +133,80 @@ TEST(UrdfParts, ShapesThatUrdfHas) {
     EXPECT_EQ(pill.geometry.length, 0.4);
     EXPECT_EQ(pill.X_LS.p.z, 1);
     EXPECT_EQ(pill.name, "a_collision");
-    const Loaded unknown = load_shape("<blob radius='1'/>");
-    ASSERT_TRUE(unknown.world) << unknown.text();
-    EXPECT_NE(unknown.find("urdf-shape"), nullptr);
-    EXPECT_TRUE(unknown.world->prototypes.at(0).links.at(0).collisions.empty());
-    EXPECT_NE(load_shape("<sphere/>").find("urdf-shape"), nullptr) << "without a radius";
+    const Loaded cone = load_shape("<cone radius='0.1' length='0.4'/>");
+    ASSERT_TRUE(cone.world) << cone.text();
+    const GeometrySpec& tip = cone.world->prototypes.at(0).links.at(0).collisions.at(0).geometry;
+    EXPECT_EQ(tip.kind, GeometryKind::kCone);
+    EXPECT_EQ(tip.radius + tip.length, 0.5);
+    const Loaded ellipsoid = load_shape("<ellipsoid radii='0.1 0.2 0.3'/>");
+    ASSERT_TRUE(ellipsoid.world) << ellipsoid.text();
+    const GeometrySpec& egg = ellipsoid.world->prototypes.at(0).links.at(0).collisions.at(0).geometry;
+    EXPECT_EQ(egg.kind, GeometryKind::kEllipsoid);
+    EXPECT_EQ(egg.size, (Vec3{0.1, 0.2, 0.3}));
+    for (const Loaded* good : {&capsule, &cone, &ellipsoid})
+        EXPECT_TRUE(good->diagnostics.items().empty()) << good->text();
+}
+
+TEST(UrdfParts, AShapeThatCannotBeIsAnErrorInACollisionAndAWarningInAVisual) {
+    const auto load_part = [](const std::string& kind, const std::string& geometry) {
+        return load_robot(heavy("a", "\n<" + kind + ">" + geometry + "</" + kind + ">"));
+    };
+    struct Case {
+        const char *shape, *cause;
+    };
+    for (const Case& c : {Case{"<blob radius='1'/>", "<blob> is not known"},
+                          {"<sphere/>", "<sphere> has no radius"},
+                          {"<capsule radius='1'/>", "<capsule> has no length"},
+                          {"<cylinder/>", "<cylinder> has no radius and no length"},
+                          {"<mesh/>", "<mesh> has no filename"}}) {
+        const std::string geometry = "<geometry>" + std::string(c.shape) + "</geometry>";
+        for (const std::string kind : {"collision", "visual"}) {
+            const Loaded loaded = load_part(kind, geometry);
+            const Diagnostic* told = loaded.find("urdf-shape");
+            ASSERT_NE(told, nullptr) << c.shape;
+            EXPECT_EQ(told->severity, kind == "collision" ? Severity::kError : Severity::kWarning) << c.shape;
+            EXPECT_NE(told->message.find("<" + kind + "> of link 'a': " + c.cause), std::string::npos)
+                << told->message;
+            EXPECT_EQ(told->where.line, 3);
+        }
+    }
+    for (const char* nothing : {"", "<geometry/>"}) {
+        const Loaded loaded = load_part("collision", nothing);
+        ASSERT_TRUE(loaded.world) << loaded.text();
+        ASSERT_NE(loaded.find("urdf-shape"), nullptr);
+        EXPECT_EQ(loaded.find("urdf-shape")->severity, Severity::kWarning)
+            << "it says nothing that could act";
+        EXPECT_TRUE(loaded.world->prototypes.at(0).links.at(0).collisions.empty());
+    }
+}
+
+TEST(UrdfParts, WhatIsLeftOutIsNamed) {
+    const Loaded sensor =
+        load_robot(heavy("a") + "<gazebo reference='b'><mu1>1</mu1><sensor name='imu' type='imu'/></gazebo>");
+    ASSERT_NE(sensor.find("gazebo-reference"), nullptr) << sensor.text();
+    EXPECT_NE(sensor.find("gazebo-reference")->message.find("left out <mu1>, <sensor> 'imu'"),
+              std::string::npos)
+        << sensor.text();
+    const Loaded freed =
+        load_robot(heavy("a") + "<link name='b'/><link name='c'/>\n" + joint("j", "floating", "a", "b"));
+    ASSERT_TRUE(freed.world) << freed.text();
+    EXPECT_EQ(freed.world->prototypes.at(0).links.size(), 1u);
+    std::vector<std::string> told;
+    for (const Diagnostic& d : freed.diagnostics.items())
+        if (d.code == "left-out-link" && d.severity == Severity::kWarning) told.push_back(d.message);
+    ASSERT_EQ(told.size(), 2u) << freed.text();
+    EXPECT_NE(told[0].find("link 'b'"), std::string::npos) << told[0];
+    EXPECT_NE(told[0].find("joint 'j'"), std::string::npos) << told[0];
+    EXPECT_NE(told[1].find("link 'c'"), std::string::npos) << told[1];
+}
+
+TEST(UrdfParts, AJointMayBeCalledWorld) {
+    const Loaded loaded =
+        load_robot(heavy("a") + heavy("b") + joint("world", "continuous", "a", "b", kFreeHinge));
+    ASSERT_TRUE(loaded.world) << loaded.text();
+    EXPECT_TRUE(loaded.diagnostics.items().empty()) << loaded.text();
+    ASSERT_NE(find_joint(loaded, "world"), nullptr);
+    EXPECT_EQ(find_joint(loaded, "world")->parent, "a");
 }
 
 TEST(UrdfParts, ASensorAtAFixedJointMeasuresThatJoint) {

@@ -2,7 +2,6 @@
 #include "app/dataset/dataset.h"
 
 #include <fmt/format.h>
-#include <fnmatch.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -11,6 +10,7 @@
 #include "app/output/array_file.h"
 #include "core/hash.h"
 #include "core/similar.h"
+#include "model/robot_names.h"
 #include "render/lens.h"
 #include "sensors/channel_order.h"
 #include "sensors/placed_camera.h"
@@ -44,10 +44,6 @@ const char* const kPoseColumns = "x,y,z,qw,qx,qy,qz\n";
 
 }  // namespace
 
-bool matches_pattern(const std::string& text, const std::string& pattern) {
-    return fnmatch(pattern.c_str(), text.c_str(), 0) == 0;
-}
-
 Dataset::Dataset(DatasetOptions options, DatasetRun run)
     : options_(std::move(options)), run_(std::move(run)), states_(run_.model, run_.visuals, run_.threads) {}
 
@@ -70,7 +66,7 @@ Result<> Dataset::find_sensors() {
             names.push_back(name);
             bool wanted = options_.sensors.empty() && sees(infos[s].spec);
             for (std::size_t p = 0; p < options_.sensors.size(); ++p)
-                if (matches_pattern(name, options_.sensors[p])) wanted = used[p] = true;
+                if (fits_pattern(name, options_.sensors[p])) wanted = used[p] = true;
             if (!wanted) continue;
             const bool in_kitti = options_.format == "kitti" && (is_color_camera(infos[s].spec) ||
                                                                  infos[s].spec.as<LaserSpec>() != nullptr);

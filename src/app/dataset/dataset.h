@@ -71,7 +71,4 @@ class Dataset {
     int frames_ = 0;
 };
 
-/// Whether `text` is as `pattern` says: * stands for any characters, ? for one.
-bool matches_pattern(const std::string& text, const std::string& pattern);
-
 }  // namespace roboss
