@@ -175,6 +175,23 @@ class Control(unittest.TestCase):
                 self.assertTrue(journal("verify", file)["good"])
         self.assertEqual(hashes[0], hashes[1])
 
+    def test_the_reply_holds_the_findings_about_robots_that_are_added(self):
+        ball, broken = FOLDER / "ball.sdf", FOLDER / "broken.sdf"
+        ball.write_text(BALL)
+        broken.write_text(BALL.replace("<mass>1<", "<mass>heavy<"))
+        with Cluster() as cluster:
+            cluster.controller(*PILE, "--local", 1, "--simulators", 0, "--paused")
+            reply = self.ask(cluster, "add", ball, "--name", "sunk", "--pose", "9 9 -0.05 0 0 0")
+            self.assertTrue(reply.startswith(f"1 robot of {ball} added"), reply)
+            self.assertIn("'sunk' starts in", reply)
+            self.assertIn("[start-overlap]", reply)
+            stands = self.ask(cluster, "add", ball, "--name", "high", "--pose", "9 -9 3 0 0 0", "--on-ground")
+            self.assertIn("[start-on-ground]", stands)
+            refused = self.ask(cluster, "add", broken, code=3)
+            self.assertIn(f"{broken}:1: error", refused)
+            for text in (reply, stands, refused):
+                self.assertNotIn("roboss-add", text)
+
     def test_robots_and_accuracy_change_at_a_tick_and_the_journal_keeps_it(self):
         ball = FOLDER / "ball.sdf"
         ball.write_text(BALL)

@@ -238,14 +238,14 @@ int check(const std::string& file, const CheckOptions& options, nlohmann::json& 
         report["runs"] = runs;
         report["commands"] = to_json(commands);
         report["plugins"] = to_json(plugins);
-        if (options.names && runs) report["names"] = to_json(list_names(*model));
+        if (options.names && runs) report["names"] = to_json(list_names(*model, *world));
         report["errors"] = diagnostics.count(Severity::kError);
         report["warnings"] = diagnostics.count(Severity::kWarning);
         report["diagnostics"] = to_json(diagnostics);
         reports.push_back(std::move(report));
     } else {
         if (world) print_text(*world, take_census(*world, model.get()));
-        if (options.names && runs) say("{}", to_text(list_names(*model)));
+        if (options.names && runs) say("{}", to_text(list_names(*model, *world)));
         print_text(commands);
         if (world) print_text(plugins, world->file);
         print_text(diagnostics, options.all);
@@ -301,7 +301,7 @@ void add_check_command(CLI::App& app, int& exit_code) {
     command->add_flag(
         "--names", options->names,
         "also print the names of all robots, links, joints, sensors and commands, as orders and "
-        "programs spell them");
+        "programs spell them, and the links that frames are fixed to");
     command->add_flag("--json", options->json,
                       "print JSON instead of text: an object, or a list for several files");
     command->callback([options, &exit_code] { exit_code = check_all(*options); });

@@ -128,7 +128,7 @@ class Run {
     Done seek(const RewindRun& to);
     Done act(const CopyRobots& copy);
     Done act(const RestoreRobots& restore);
-    void tell_start(const ModelEdit& edit, Diagnostics found);
+    std::vector<std::string> findings_of(const ModelEdit& edit, Diagnostics found) const;
     /// `arrived`: the states of the last robots of the new Model, instead of their initial ones.
     Done change_model(const ModelEdit& edit, const std::string& what,
                       std::span<const RobotState> arrived = {});

@@ -7,6 +7,7 @@
 #include <fstream>
 
 #include "app/processes/private_folder.h"
+#include "app/run/added_findings.h"
 #include "app/run/journal_location.h"
 #include "app/run/run.h"
 #include "app/run/run_outputs.h"
@@ -87,7 +88,9 @@ void Run::serve_requests() {
         ControlOutcome outcome = execute(action);
         if (const auto* done = std::get_if<ControlDone>(&outcome)) {
             notices_.push_back(fmt::format("request {}: {}", control_verb(action), done->text));
-            if (journal_->writes()) journal_->writer().note(tick, done->text);
+            // Further lines say what was found about robots that came.
+            if (journal_->writes())
+                journal_->writer().note(tick, done->text.substr(0, done->text.find('\n')));
         }
         if (journal_->writes() && !only_asks(action))
             (void)journal_->writer().flush();  // a request that got its reply is in the journal
@@ -313,13 +316,12 @@ Run::Done Run::act(const ChangeAccuracy& change) {
     return change_model(edit.value(), text);
 }
 
-/// Notices about robots that came: warnings, and what is noted about their start.
-void Run::tell_start(const ModelEdit& edit, Diagnostics found) {
+/// What is told of robots that come: warnings, and what is noted about their start.
+std::vector<std::string> Run::findings_of(const ModelEdit& edit, Diagnostics found) const {
     for (const Diagnostic& d : edit.found.items()) found.add(d);
     report_overlaps(*edit.model, carry_over(edit, simulation_->saved_run().states), model_->robots.size(),
                     found);
-    for (const Diagnostic& d : found.items())
-        if (is_told_by_run(d)) notices_.push_back(to_text(d));
+    return told_findings(found);
 }
 
 Run::Done Run::act(const AddModels& add) {
@@ -336,17 +338,22 @@ Run::Done Run::act(const AddModels& add) {
     CompileOptions options;
     options.dt_s = model_->dt_s;
     const auto addition = world && !found.has_errors() ? compile(*world, options, found) : nullptr;
+    found = under_name(found, file.string(), add.file);
     if (!addition) return Error{first_error(found), "fix the file", "bad-model"};
     std::vector<CopyPlace> places = add.copies;
     if (places.empty()) places.push_back({add.name, add.X_WA});
     Result<ModelEdit> edit =
         with_models(*model_, *addition, places, add.on_ground ? Standing::kOnGround : Standing::kAsPlaced);
     if (!edit) return edit.error();
-    tell_start(edit.value(), found);
+    const std::vector<std::string> told = findings_of(edit.value(), found);
     if (keeps_looks(*edit.value().model))
         visuals_.add({*model_, *edit.value().model, *addition}, std::move(*world), places);
     const std::size_t came = edit.value().model->robots.size() - model_->robots.size();
-    return change_model(edit.value(), fmt::format("{} of {} added", robot_count(came), add.file));
+    Done done = change_model(edit.value(), fmt::format("{} of {} added", robot_count(came), add.file));
+    if (!done) return done;
+    std::string text = std::move(done).value();
+    for (const std::string& finding : told) text += "\n" + finding;
+    return text;
 }
 
 Run::Done Run::act(const RemoveRobots& remove) {

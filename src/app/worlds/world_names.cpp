@@ -30,6 +30,16 @@ TypeNames type_names(const RobotType& type) {
     return names;
 }
 
+/// The frames of the robot's model that are fixed to one of the robot's links.
+std::vector<NamedFrame> frames_of(const World& world, const Robot& robot, const TypeNames& names) {
+    std::vector<NamedFrame> frames;
+    if (robot.family >= world.instances.size()) return frames;
+    for (const FrameSpec& frame : world.prototypes[world.instances[robot.family].prototype].frames)
+        if (std::ranges::find(names.links, frame.link) != names.links.end())
+            frames.push_back({frame.name, frame.link});
+    return frames;
+}
+
 /// "car_7" as "car_" and 7; nullopt: it does not end in a number that is written without leading zeros.
 std::optional<std::pair<std::string, long>> split_number(const std::string& name) {
     std::size_t digits = name.size();
@@ -65,6 +75,19 @@ std::string listed(const std::vector<NamedThing>& things) {
     return list;
 }
 
+std::string listed(const std::vector<NamedFrame>& frames) {
+    std::string list;
+    for (const NamedFrame& frame : frames)
+        list += fmt::format("{}{} (on {})", list.empty() ? "" : ", ", frame.name, frame.link);
+    return list;
+}
+
+nlohmann::json frames_to_json(const std::vector<NamedFrame>& frames) {
+    nlohmann::json list = nlohmann::json::array();
+    for (const NamedFrame& frame : frames) list.push_back({{"name", frame.name}, {"link", frame.link}});
+    return list;
+}
+
 nlohmann::json things_to_json(const std::vector<NamedThing>& things) {
     nlohmann::json list = nlohmann::json::array();
     for (const NamedThing& thing : things) list.push_back({{"name", thing.name}, {"kind", thing.kind}});
@@ -75,8 +98,8 @@ nlohmann::json things_to_json(const std::vector<NamedThing>& things) {
 /// name here, such as their topics, are listed together.
 std::size_t place_in(std::vector<TypeNames>& all, TypeNames names) {
     const auto is_alike = [&](const TypeNames& other) {
-        return std::tie(other.links, other.joints, other.sensors, other.commands) ==
-               std::tie(names.links, names.joints, names.sensors, names.commands);
+        return std::tie(other.links, other.joints, other.sensors, other.frames, other.commands) ==
+               std::tie(names.links, names.joints, names.sensors, names.frames, names.commands);
     };
     const auto found = std::ranges::find_if(all, is_alike);
     if (found != all.end()) return static_cast<std::size_t>(found - all.begin());
@@ -86,14 +109,18 @@ std::size_t place_in(std::vector<TypeNames>& all, TypeNames names) {
 
 }  // namespace
 
-std::vector<TypeNames> list_names(const Model& model) {
+std::vector<TypeNames> list_names(const Model& model, const World& world) {
     std::vector<std::size_t> places(model.types.size(), model.types.size());  // in `all`
     std::vector<TypeNames> all;
     for (const Robot& robot : model.robots) {
         const RobotType& type = model.types[robot.type.index()];
         if (board_of(type) != nullptr) continue;
         std::size_t& place = places[robot.type.index()];
-        if (place == model.types.size()) place = place_in(all, type_names(type));
+        if (place == model.types.size()) {
+            TypeNames names = type_names(type);
+            names.frames = frames_of(world, robot, names);
+            place = place_in(all, std::move(names));
+        }
         all[place].robots.push_back(robot.name);
     }
     return all;
@@ -118,6 +145,7 @@ std::string to_text(const std::vector<TypeNames>& types) {
         add_line(text, "links", shortened(type.links));
         add_line(text, "joints", listed(type.joints));
         add_line(text, "sensors", listed(type.sensors));
+        add_line(text, "frames", listed(type.frames));
         add_line(text, "commands", shortened(type.commands));
     }
     return text;
@@ -131,6 +159,7 @@ nlohmann::json to_json(const std::vector<TypeNames>& types) {
                         {"links", type.links},
                         {"joints", things_to_json(type.joints)},
                         {"sensors", things_to_json(type.sensors)},
+                        {"frames", frames_to_json(type.frames)},
                         {"commands", type.commands}});
     return list;
 }

@@ -23,13 +23,28 @@ TEST(WorldNames, AllRobotsLinksJointsSensorsAndCommandsAreListed) {
     ASSERT_TRUE(world);
     const auto model = compile(*world, {}, diagnostics);
     ASSERT_TRUE(model);
-    const std::vector<TypeNames> types = list_names(*model);
+    const std::vector<TypeNames> types = list_names(*model, *world);
     std::size_t robots = 0;
     for (const TypeNames& type : types) robots += type.robots.size();
     EXPECT_EQ(robots, model->robots.size());
     const std::string text = to_text(types);
     for (const char* name : {"car_0 ... car_15 (16)", "front_left (continuous)", "laser (", "chassis"})
         EXPECT_NE(text.find(name), std::string::npos) << name << " in\n" << text;
+}
+
+TEST(WorldNames, LinksOfUrdfThatAreFramesAreListedWithTheirLink) {
+    Diagnostics diagnostics;
+    const std::string mass =
+        "<inertial><mass value='1'/><inertia ixx='1' iyy='1' izz='1' ixy='0' ixz='0' iyz='0'/></inertial>";
+    const auto world = load_world_text("<robot name='r'><link name='arm'>" + mass +
+                                           "</link><link name='tip'/><joint name='weld' type='fixed'>"
+                                           "<parent link='arm'/><child link='tip'/></joint></robot>",
+                                       "r.urdf", {}, diagnostics);
+    ASSERT_TRUE(world);
+    const std::vector<TypeNames> types = list_names(*compile(*world, {}, diagnostics), *world);
+    ASSERT_EQ(types.size(), 1u);
+    EXPECT_EQ(types[0].frames, (std::vector<NamedFrame>{{"tip", "arm"}}));
+    EXPECT_NE(to_text(types).find("tip (on arm)"), std::string::npos) << to_text(types);
 }
 
 }  // namespace
