@@ -126,10 +126,11 @@ class Outputs(unittest.TestCase):
 
     def test_the_log_has_events_and_the_state_of_run_and_simulators(self):
         file = FOLDER / "run.log"
-        file.write_text("a line of a run before\n")
+        before = "2026-01-01T00:00:00.000Z level=info event=end"
+        file.write_text(before + "\n")
         summary(WORLDS / "pile.sdf", "--duration", 0.4, "--simulators", 3, "--log", file, "--log-every", 0.001)
         first, *lines = file.read_text().splitlines()
-        self.assertEqual(first, "a line of a run before", "it is added to")
+        self.assertEqual(first, before, "it is added to")
         events = [dict(p.split("=", 1) for p in shlex.split(line)[1:]) for line in lines]
         self.assertEqual({e["level"] for e in events}, {"info"})
         states = [e for e in events if e["event"] == "state"]
