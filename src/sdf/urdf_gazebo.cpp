@@ -138,7 +138,7 @@ void extend_joint_by(pugi::xml_node node, SdfText& out, pugi::xml_node to) {
 }
 
 /// "<mu1>, <sensor> 'imu'", of what an extension holds.
-std::string content_of(pugi::xml_node extension) {
+std::string held_in(pugi::xml_node extension) {
     std::string parts;
     for (const auto node : extension.children()) {
         if (node.type() != pugi::node_element) continue;
@@ -150,7 +150,7 @@ std::string content_of(pugi::xml_node extension) {
 
 /// A warning: Gazebo ignores such an extension.
 void report_reference(const UrdfRobot& robot, pugi::xml_node extension) {
-    const std::string content = content_of(extension);
+    const std::string content = held_in(extension);
     robot.diagnostics.warning(robot.where(extension), "gazebo-reference",
                               "<gazebo reference=\"" + std::string(extension.attribute("reference").value()) +
                                   "\"> names neither a link nor a joint; it has no effect" +
