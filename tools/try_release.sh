@@ -48,7 +48,7 @@ END
 # try NAME ROOT COMMAND CHECKS: the command, in a copy of dist/, and then the checks with the `roboss` it made.
 try() {
     local name=$1 root=$2 command=$3 checks=$4
-    if tools/bare_root.sh "$release" "$root" bash -c "set -e; cd /root/dist; $command; $checks" >"$root.log" 2>&1; then
+    if tools/bare_root.sh "$release" "$root" bash -c "set -e; face_s=$face_s; cd /root/dist; $command; $checks" >"$root.log" 2>&1; then
         passed=$((passed + 1))
         printf 'ok    %-14s %s\n' "$release" "$name"
     else
@@ -77,7 +77,7 @@ kill $run; wait $run || true
 # Both faces, which join the run when they serve.
 faces='
 roboss run example:fleet --ros2 --ros2-bridge /root/bridge.yaml --foxglove --foxglove-bridge /root/bridge.yaml --headless \
-    --duration 10 >faces.log 2>&1
+    --duration $face_s >faces.log 2>&1
 for face in ros2 foxglove; do grep "client .$face. joined" faces.log; done
 '
 no_face='
@@ -95,7 +95,8 @@ roboss run my_driver/world.sdf --client my_driver/build/my_driver.so --duration 
 archive='PATH=$(echo /opt/roboss-*/bin):$PATH'
 for release in "${releases[@]}"; do
     processor=$(uname -m) architecture=$(dpkg --print-architecture)
-    [[ $release != *-arm64 ]] || processor=aarch64 architecture=arm64
+    face_s=10  # within which faces join
+    [[ $release != *-arm64 ]] || processor=aarch64 architecture=arm64 face_s=60
     root=${TMPDIR:-/var/tmp}/roboss_release_$release
     rm -rf --one-file-system "$root"
     tools/bare_root.sh "$release" "$root" >/dev/null
