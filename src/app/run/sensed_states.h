@@ -9,6 +9,7 @@
 
 #include "model/model.h"
 #include "model/robot_state.h"
+#include "physics/probe.h"
 #include "render/camera_scene.h"
 #include "render/visuals_of.h"
 #include "sensors/readings.h"
