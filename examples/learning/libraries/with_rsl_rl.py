@@ -30,11 +30,11 @@ class TensorEnv(VecEnv):
         self._seen = self._dict(env.reset(seed=seed)[0])
 
     def get_observations(self):
-        """What all agents see now."""
+        """The present observations of all agents."""
         return self._seen
 
     def step(self, actions):
-        """Observations, rewards, whose episode is over, and for whom only its time was up."""
+        """Observations, rewards, dones, and extras with the mask of time-outs."""
         observations, rewards, terminated, truncated, _ = self.env.step(actions.clamp(-1, 1).numpy())
         self._seen = self._dict(observations)
         extras = {"time_outs": torch.from_numpy(truncated)}
@@ -45,7 +45,7 @@ class TensorEnv(VecEnv):
 
 
 def settings_of(cars):
-    """What the runner is told."""
+    """The configuration of the runner."""
     model = {"class_name": "MLPModel", "hidden_dims": [64, 64], "activation": "tanh"}
     return {"num_steps_per_env": STEPS, "save_interval": 10**9, "obs_groups": {"actor": ["policy"], "critic": ["policy"]},
             "actor": {**model, "distribution_cfg": {"class_name": "GaussianDistribution", "init_std": 0.5, "std_type": "log"}},

@@ -31,12 +31,12 @@ class AgentsVecEnv(VecEnv):
         self._actions = actions
 
     def step_wait(self):
-        """Observations, rewards, who is done, and infos with what was seen last."""
+        """Observations, rewards, dones, and infos with the terminal observations."""
         observations, rewards, terminated, truncated, infos = self.env.step(self._actions)
-        told = [{} for _ in range(self.num_envs)]
+        last = [{} for _ in range(self.num_envs)]
         for agent in np.flatnonzero(terminated | truncated):
-            told[agent] = {"terminal_observation": infos["final_obs"][agent], "TimeLimit.truncated": bool(truncated[agent])}
-        return observations, rewards.astype(np.float32), terminated | truncated, told
+            last[agent] = {"terminal_observation": infos["final_obs"][agent], "TimeLimit.truncated": bool(truncated[agent])}
+        return observations, rewards.astype(np.float32), terminated | truncated, last
 
     def close(self):
         """Ends the environment."""

@@ -104,7 +104,7 @@ def update(agent, adam, rollout):
 
 
 def train(env, agent, steps, seed):
-    """Learns from so many agent-steps."""
+    """Trains the agent for this number of agent-steps."""
     adam = torch.optim.Adam(agent.parameters(), RATE, eps=1e-5)
     seen, _ = env.reset(seed=seed)
     for _ in range(max(1, steps // (STEPS * env.num_envs))):

@@ -19,7 +19,7 @@ STEPS, EPOCHS, MINIBATCH = 64, 6, 1024  # of an agent between two updates; passe
 
 
 def networks(seen, actions):
-    """Actor and critic of observations with so many columns."""
+    """Actor and critic, for observations and actions with these numbers of columns."""
     mean = MLP(seen, 2 * actions, num_cells=[64, 64], activation_class=nn.Tanh)
     with torch.no_grad():
         mean[-1].weight *= 0.01
@@ -31,7 +31,7 @@ def networks(seen, actions):
 
 
 def train(env, actor, critic, steps):
-    """Learns from so many agent-steps."""
+    """Trains actor and critic for this number of agent-steps."""
     frames = STEPS * env.batch_size[0]
     collector = Collector(env, actor, frames_per_batch=frames, total_frames=max(1, steps // frames) * frames,
                           auto_register_policy_transforms=False)
