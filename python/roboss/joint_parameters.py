@@ -8,7 +8,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from . import _core
 from .errors import ArgumentError
-from .names import filled, index_of, names_of, text
+from .names import index_of, text
 
 if TYPE_CHECKING:
     from .robots import Robots
@@ -107,20 +107,14 @@ class JointParameters:
         Args:
             joints: names; None: all joints.
         """
-        self._robots._core.reset_joint_parameters(self._columns(joints))
-
-    def _columns(self, joints: Union[str, Iterable[str], None]) -> list[int]:
-        facts = self._robots._joint_facts
-        names = facts.axes if joints is None else names_of("joints", joints)
-        return [self._robots._number("joint", name, facts.axes, lambda own: own.axes) for name in names]
+        self._robots._core.reset_joint_parameters(self._robots._joint_columns(joints))
 
     def _set(self, joints: Union[str, Iterable[str], None], values: dict[str, ArrayLike]) -> None:
         if not values:
             raise ArgumentError("no parameter is given", f"give some of {', '.join(_NAMES)}", "no-parameter")
-        columns = self._columns(joints)
+        columns = self._robots._joint_columns(joints)
         parameters = [_number(name) for name in values]
-        shape = (*self._robots._rows, len(columns))
-        arrays = [filled(name, array, shape) for name, array in values.items()]
+        arrays = [self._robots._fill(name, array, len(columns)) for name, array in values.items()]
         self._robots._core.set_joint_parameters(columns, parameters, np.ascontiguousarray(np.stack(arrays, axis=-2)))
 
     def _read(self, name: str, of_file: bool) -> Floats:

@@ -38,7 +38,7 @@ class PaddedRobots:
     def __init__(self, batch: Batch, wanted: Union[str, Iterable[str]]):
         self.batch = batch  #: that they are in
         wanted = wanted if isinstance(wanted, str) else list(wanted)
-        ids = [world._find(wanted, none=[]) for world in batch.worlds]
+        ids = [world._find(wanted, may_be_none=True) for world in batch.worlds]
         if not any(ids):
             batch.worlds[0]._find(wanted)  # raises, with its names
         self.members: tuple[Robots, ...] = tuple(Robots(simulation, own) for simulation, own in zip(batch, ids))

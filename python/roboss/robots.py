@@ -326,9 +326,7 @@ class Robots:
         >>> cars.joint_velocity[0].round(2)[:2]
         array([ 8., 10.])
         """
-        facts = self._joint_facts
-        names = facts.axes if joints is None else names_of("joints", joints)
-        columns = [self._number("joint", name, facts.axes, lambda own: own.axes) for name in names]
+        columns = self._joint_columns(joints)
         if mode not in _MODES:
             raise unknown("motor mode", mode, _MODES)
         gains = [None if gain is None else self._fill(what, gain, len(columns))
@@ -397,7 +395,7 @@ class Robots:
         return RobotCameras(self, position, target, link, size, fov, far)
 
     def observation_spec(self, parts: Optional[Iterable[str]] = None) -> ObservationSpec:
-        """What these robots see as one array, with names, units, frames and bounds of its columns.
+        """The observation of these robots as one array, with names, units, frames and bounds of its columns.
 
         Args:
             parts: "joint_position", "joint_velocity", "pose", "twist", names of sensors; None: joints and all sensors
@@ -414,7 +412,7 @@ class Robots:
 
     def action_spec(self, mode: Optional[str] = None, *, command: Optional[str] = None, low: Optional[ArrayLike] = None,
                     high: Optional[ArrayLike] = None) -> ActionSpec:
-        """What these robots can be told as one array: targets of all joints, or a command of on-board controllers.
+        """The actions of these robots as one array: targets of all joints, or a command of on-board controllers.
 
         Args:
             mode: "velocity", "position" or "effort" of the joints' motors; bounds are their limits.
@@ -492,6 +490,12 @@ class Robots:
     def _rows(self) -> tuple[int, ...]:
         """Shape of an array without its columns."""
         return (*self.simulation._shape, len(self))
+
+    def _joint_columns(self, joints: Union[str, Iterable[str], None]) -> list[int]:
+        """Numbers of the columns of these joints; None: of all."""
+        facts = self._joint_facts
+        names = facts.axes if joints is None else names_of("joints", joints)
+        return [self._number("joint", name, facts.axes, lambda own: own.axes) for name in names]
 
     def _fill(self, what: str, values: ArrayLike, columns: int) -> Floats:
         return filled(what, values, (*self._rows, columns))

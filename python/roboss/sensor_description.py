@@ -75,7 +75,7 @@ class SensorDescription:
         kind: "laser", "imu", "camera" ...
         link: name of the link that carries it.
         pose: of the sensor in that link, (7,): x y z in m, quaternion x y z w.
-        update_rate: Hz, in the world file; 0: whenever it is asked.
+        update_rate: Hz, in the world file; 0: it measures on request.
         values: what Sensor.read_all() has, by name.
         parameters: of its kind, by name (docs/sensors.md): of a laser "range_min", "range_max" ...
         column_angles, row_angles: of a laser: of its columns about z, of its rows above the xy plane, rad; else empty.

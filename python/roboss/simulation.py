@@ -37,7 +37,7 @@ def threads_or_all(threads: Optional[int]) -> int:
 class Simulation(Run):
     """One world, at a tick of its time. Not for several threads at once (StateError).
 
-    `pickle` and `copy.deepcopy` give a simulation that goes on with the same bits: with its world, orders that wait,
+    `pickle` and `copy.deepcopy` give a simulation that continues with the same bits: with its world, orders that wait,
     and number of threads, and without its view. One of a Batch goes along with its Batch.
 
     Args:
@@ -111,7 +111,7 @@ class Simulation(Run):
             path = file_path("path", path)
             check_output(path, "saved state", [self.world.file])
             _core.may_save_to(path)
-            save.write(path, self.world.file, self.world._loaded)
+            save.write(path, self.world.file, int(self.world._loaded, 16))
         return save
 
     @classmethod

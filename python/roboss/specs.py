@@ -1,4 +1,4 @@
-"""Observation and action specs: what learners see and do, made from robots, with names, units and bounds of columns."""
+"""Observation and action specs for learning, made from robots, with names, units and bounds of columns."""
 from __future__ import annotations
 
 from dataclasses import dataclass
@@ -12,10 +12,12 @@ from .names import filled, names_of, unknown
 
 if TYPE_CHECKING:
     from .robots import Robots
+    from .sensor_description import ValueDescription
     from .sensors import Sensor
 
 Floats = NDArray[np.float64]
-_Read = Callable[["Robots"], Floats]
+_Read = Callable[["Robots"], Sequence[Floats]]  # the present values of some Columns, in one go
+_Part = tuple[Sequence["Columns"], _Read]
 
 
 @dataclass(frozen=True, eq=False)
@@ -78,22 +80,22 @@ class _Spec:
 
 
 class ObservationSpec(_Spec):
-    """What robots see, as one array. Robots.observation_spec makes it."""
+    """The observation of robots as one array. Robots.observation_spec makes it."""
 
-    def __init__(self, robots: Robots, parts: Sequence[tuple[Columns, _Read]]):
-        self.parts = tuple(columns for columns, _ in parts)
+    def __init__(self, robots: Robots, parts: Sequence[_Part]):
+        self.parts = tuple(columns for group, _ in parts for columns in group)
         self._robots, self._reads = robots, [read for _, read in parts]
 
     def read(self) -> NDArray[np.float32]:
         """The present values, (N, columns), within the bounds: ranges without an echo are the largest one."""
-        found = [read(self._robots) for read in self._reads]
+        found = [values for read in self._reads for values in read(self._robots)]
         rows = self._robots._rows
         all_columns = np.concatenate([values.reshape(*rows, -1) for values in found], axis=-1)
         return np.clip(all_columns, self.low, self.high).astype(np.float32)
 
 
 class ActionSpec(_Spec):
-    """What robots can be told, as one array. Robots.action_spec makes it."""
+    """The actions of robots as one array. Robots.action_spec makes it."""
 
     def __init__(self, robots: Robots, columns: Columns, give: Callable[[Floats], None]):
         self.parts, self._robots, self._give = (columns,), robots, give
@@ -121,22 +123,22 @@ class ActionSpec(_Spec):
 
 def observation_spec(robots: Robots, parts: Optional[Iterable[str]]) -> ObservationSpec:
     """See Robots.observation_spec."""
-    known: dict[str, Callable[[], list[tuple[Columns, _Read]]]] = {
-        "joint_position": lambda: [_joints(robots, "joint_position")], "joint_velocity": lambda: [_joints(robots, "joint_velocity")],
-        "pose": lambda: [_of_base("pose", ("x", "y", "z", "qx", "qy", "qz", "qw"), "")],
-        "twist": lambda: [_of_base("twist", ("vx", "vy", "vz", "wx", "wy", "wz"), "")]}
+    known: dict[str, Callable[[], _Part]] = {
+        "joint_position": lambda: _joints(robots, "joint_position"), "joint_velocity": lambda: _joints(robots, "joint_velocity"),
+        "pose": lambda: _of_base("pose", ("x", "y", "z", "qx", "qy", "qz", "qw")),
+        "twist": lambda: _of_base("twist", ("vx", "vy", "vz", "wx", "wy", "wz"))}
     sensors = {name: robots[name] for name in robots.sensors}
     if parts is None:
         names = [*(["joint_position", "joint_velocity"] if robots._facts.axes else []),
                  *(name for name, sensor in sensors.items() if _fits(sensor))]
     else:
         names = names_of("parts", parts)
-    found: list[tuple[Columns, _Read]] = []
+    found: list[_Part] = []
     for name in names:
         if name in known:
-            found += known[name]()
+            found.append(known[name]())
         elif name in sensors:
-            found += _values(sensors[name])
+            found.append(_values(sensors[name]))
         else:
             raise unknown("part of an observation", name, [*known, *sensors])
     if not found:
@@ -186,33 +188,37 @@ def _bounded(name: str, names: tuple[str, ...], unit: str, bounds: Floats, low: 
     return Columns(name, names, unit, "", lower, upper)
 
 
-def _joints(robots: Robots, name: str) -> tuple[Columns, _Read]:
+def _joints(robots: Robots, name: str) -> _Part:
     facts = robots._joint_facts
-    limits = np.array(facts.limits).reshape(-1, 4) if facts.limits is not None else np.full((len(facts.axes), 4), np.inf)
+    unit, bounds = _one([f"{own}/s" for own in facts.units]), np.full((len(facts.axes), 2), [-np.inf, np.inf])
     if name == "joint_position":
-        low, high = (limits[:, 0], limits[:, 1]) if facts.limits is not None else (-limits[:, 0], limits[:, 1])
-        return Columns(name, tuple(facts.axes), _one(facts.units), "", low, high), lambda set_: set_.joint_position
-    unit = _one([f"{own}/s" for own in facts.units])
-    free = np.full(len(facts.axes), np.inf)  # a limit is the motor's: others may turn it faster
-    return Columns(name, tuple(facts.axes), unit, "", -free, free), lambda set_: set_.joint_velocity
+        unit = _one(facts.units)
+        if facts.limits is not None:
+            bounds = np.array(facts.limits).reshape(-1, 4)[:, :2]
+    # Velocities have no bounds: a limit is the motor's, and others may turn the joint faster.
+    return [Columns(name, tuple(facts.axes), unit, "", bounds[:, 0], bounds[:, 1])], lambda set_: [getattr(set_, name)]
 
 
-def _of_base(name: str, names: tuple[str, ...], unit: str) -> tuple[Columns, _Read]:
+def _of_base(name: str, names: tuple[str, ...]) -> _Part:
     free = np.full(len(names), np.inf)
-    return Columns(name, names, unit, "world", -free, free), lambda set_: getattr(set_, name)
+    return [Columns(name, names, "", "world", -free, free)], lambda set_: [getattr(set_, name)]
+
+
+def _is_row(value: ValueDescription) -> bool:
+    """Whether each reading is a number, or a row of as many numbers each time."""
+    return None not in value.shape and value.dtype != "object" and len(value.shape) < 2
 
 
 def _fits(sensor: Sensor) -> bool:
-    """Whether its readings are numbers, as many each time, and no image."""
-    values = sensor.description.values.values()
-    return all(None not in value.shape and value.dtype != "object" and len(value.shape) < 2 for value in values)
+    """Whether all its values are rows of numbers."""
+    return all(_is_row(value) for value in sensor.description.values.values())
 
 
-def _values(sensor: Sensor) -> list[tuple[Columns, _Read]]:
-    """The values of a sensor; of a laser its ranges alone."""
-    description, found = sensor.description, []
+def _values(sensor: Sensor) -> _Part:
+    """The values of a sensor, which is read once for all of them; of a laser its ranges alone."""
+    description, columns, wanted = sensor.description, [], []
     for value in description.values.values():
-        if None in value.shape or value.dtype == "object" or len(value.shape) > 1:
+        if not _is_row(value):
             raise ArgumentError(f"sensor '{sensor.name}': its '{value.name}' is no row of numbers", "read it by itself",
                                 "no-columns")
         if description.kind == "laser" and value.name != "ranges":
@@ -223,9 +229,13 @@ def _values(sensor: Sensor) -> list[tuple[Columns, _Read]]:
             low, high = np.full_like(free, description.range[0]), np.full_like(free, description.range[1])
         one = sensor.name if description.kind == "laser" else f"{sensor.name}.{value.name}"
         names = tuple(f"{one}[{place}]" for place in range(len(free))) if value.shape else (one,)
-        found.append((Columns(one, names, value.unit, value.frame, low, high), _reader(sensor.name, value.name)))
-    return found
+        columns.append(Columns(one, names, value.unit, value.frame, low, high))
+        wanted.append(value.name)
+    return columns, _reader(sensor.name, wanted)
 
 
-def _reader(sensor: str, value: str) -> _Read:
-    return lambda robots: np.asarray(robots[sensor].read_all()[value], dtype=np.float64)
+def _reader(sensor: str, wanted: Sequence[str]) -> _Read:
+    def read(robots: Robots) -> list[Floats]:
+        values = robots[sensor].read_all()
+        return [np.asarray(values[name], dtype=np.float64) for name in wanted]
+    return read

@@ -107,15 +107,12 @@ class World:
     def __repr__(self) -> str:
         return f"<roboss.World '{self.name}' from {self.file}: {len(self.robots)} robots, dt={self.dt} s>"
 
-    def _find(self, wanted: Union[str, Iterable[str]], none: Optional[list[int]] = None) -> list[int]:
-        """Numbers of the robots that match a pattern or are named. `none`: where no robot matches a pattern; None: an
-        error."""
+    def _find(self, wanted: Union[str, Iterable[str]], *, may_be_none: bool = False) -> list[int]:
+        """Numbers of the robots that match a pattern or are named. `may_be_none`: it is no error if none matches."""
         names = self.robots
         if isinstance(wanted, str):
             ids = [number for number, name in enumerate(names) if fnmatchcase(name, wanted)]
-            if not ids and none is not None:
-                return none
-            if not ids:
+            if not ids and not may_be_none:
                 raise unknown("robot", wanted, names)
         else:
             known = {name: number for number, name in enumerate(names)}

@@ -3,7 +3,6 @@
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/tuple.h>
 
-#include <charconv>
 #include <span>
 
 #include "bindings.h"
@@ -34,7 +33,7 @@ std::vector<LoggedOrder> waiting_of(const LocalSave& save) {
     return waiting;
 }
 
-/// Of the bytes of states and orders, to notice damage.
+/// A hash of the bytes of states and orders, to notice damage.
 std::uint64_t check_of(std::span<const std::uint8_t> states, std::span<const std::uint8_t> orders) {
     Hash hash;
     hash.add(hash_of_bytes(states));
@@ -66,20 +65,13 @@ Saved saved_of(std::shared_ptr<const Model> model, Tick tick, std::uint64_t seed
     return {std::move(model), std::move(save)};
 }
 
-std::uint64_t hash_of_hex(const std::string& hex) {
-    std::uint64_t hash = 0;
-    std::from_chars(hex.data(), hex.data() + hex.size(), hash, 16);
-    return hash;
-}
-
 /// `world_hash`: of the Model of the world file, which may have had other robots.
 void write_save(const Saved& saved, const std::string& path, const std::string& world_file,
-                const std::string& world_hash) {
+                std::uint64_t world_hash) {
     const LocalSave& save = saved.save;
     SavedRun run;
     run.world_file = world_file;
-    const std::uint64_t world = hash_of_hex(world_hash);
-    run.world_hash = world == saved.model->hash ? 0 : world;
+    run.world_hash = world_hash == saved.model->hash ? 0 : world_hash;
     run.seed = save.seed;
     run.tick = run.logged_until = save.tick;
     run.states = save.states;

@@ -1,4 +1,4 @@
-// Facts about a sensor: where it is, the parameters of its kind, and the values of its readings.
+// Facts about a sensor: where it is, and the parameters of its kind.
 #include <nanobind/stl/shared_ptr.h>
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/vector.h>
@@ -59,17 +59,6 @@ nb::list parameters_of(const SensorSpec& spec) {
     return all;
 }
 
-/// (name, unit) of each value of its readings.
-nb::list fields_of(const SensorSpec& spec) {
-    nb::list all;
-    Sample sample;
-    if (make_sample(spec.kind().number, sample))
-        visit_fields(sample, [&](const ReadingField& field, const auto&) {
-            all.append(nb::make_tuple(field.name, field.unit));
-        });
-    return all;
-}
-
 nb::dict facts_of_sensor(const std::shared_ptr<const Model>& model, std::uint32_t robot, std::size_t sensor) {
     const RobotType& type = model->type_of(RobotId(robot));
     const SensorInfo& info = type.sensors[sensor];
@@ -79,7 +68,6 @@ nb::dict facts_of_sensor(const std::shared_ptr<const Model>& model, std::uint32_
     facts["pose"] = python_value(info.spec.X_LS);
     facts["update_rate"] = info.spec.update_rate_hz;
     facts["parameters"] = parameters_of(info.spec);
-    facts["fields"] = fields_of(info.spec);
     const auto* laser = info.spec.as<LaserSpec>();
     facts["columns"] = laser != nullptr ? laser->column_angles() : std::vector<double>();
     facts["rows"] = laser != nullptr ? laser->row_angles() : std::vector<double>();

@@ -98,7 +98,7 @@ class Simulation {
 
 using Simulations = std::vector<std::shared_ptr<Simulation>>;
 
-/// What a run continues from, and the world that it is of.
+/// The state that a run continues from, and the world that it is of.
 struct Saved {
     std::shared_ptr<const roboss::Model> model;
     roboss::LocalSave save;

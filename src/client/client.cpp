@@ -128,8 +128,8 @@ Twist Client::twist(const RobotRef& robot, const LinkRef& link) const {
 }
 
 /// The joint, if it has such an axis.
-const Joint& Client::axis_of_joint(RobotId id, const JointRef& joint, int axis) const {
-    const Joint& info = model().type_of(id).joints[joint_id(id, joint).index()];
+const Joint& Client::axis_of_joint(RobotId id, JointId joint, int axis) const {
+    const Joint& info = model().type_of(id).joints[joint.index()];
     if (axis < 0 || axis >= info.nv)
         refuse("joint '" + info.name + "' of " + called(known(id)) + " has no axis " + std::to_string(axis),
                "it has " + std::to_string(info.nv) + " degrees of freedom, counted from 0");
@@ -138,15 +138,16 @@ const Joint& Client::axis_of_joint(RobotId id, const JointRef& joint, int axis) 
 
 JointState Client::joint(const RobotRef& robot, const JointRef& joint, int axis) const {
     const RobotId id = this->robot(robot);
-    (void)axis_of_joint(id, joint, axis);
-    return joint_state(model().type_of(id), state_with(StatePart::kJoints, id), joint_id(id, joint), axis);
+    const JointId known_joint = joint_id(id, joint);
+    (void)axis_of_joint(id, known_joint, axis);
+    return joint_state(model().type_of(id), state_with(StatePart::kJoints, id), known_joint, axis);
 }
 
 double Client::joint_parameter(const RobotRef& robot, const JointRef& joint, JointParameter parameter,
                                int axis) const {
     const RobotId id = this->robot(robot);
     const RobotType& type = model().type_of(id);
-    const Joint& info = axis_of_joint(id, joint, axis);
+    const Joint& info = axis_of_joint(id, joint_id(id, joint), axis);
     return dof_of(type, state(id), info, axis).*info_of(parameter).member;
 }
 
@@ -184,28 +185,24 @@ OrderResult Client::pull(const RobotRef& robot, const LinkRef& link, const Vec3&
 OrderResult Client::set_joint(const RobotRef& robot, const JointRef& joint, MotorMode mode, double target,
                               double max_effort, int axis) {
     const RobotId id = id_for_order(robot);
-    const JointId known_joint = joint.named() ? joint_id(id, joint) : joint.id();
-    return order(id, SetJoint{known_joint, axis, mode, target, max_effort});
+    return order(id, SetJoint{joint_for_order(id, joint), axis, mode, target, max_effort});
 }
 
 OrderResult Client::set_joint_state(const RobotRef& robot, const JointRef& joint,
                                     std::vector<double> position, std::vector<double> velocity) {
     const RobotId id = id_for_order(robot);
-    const JointId known_joint = joint.named() ? joint_id(id, joint) : joint.id();
-    return order(id, SetJointState{known_joint, std::move(position), std::move(velocity)});
+    return order(id, SetJointState{joint_for_order(id, joint), std::move(position), std::move(velocity)});
 }
 
 OrderResult Client::set_joint_parameters(const RobotRef& robot, const JointRef& joint,
                                          std::vector<JointParameterValue> values, int axis) {
     const RobotId id = id_for_order(robot);
-    const JointId known_joint = joint.named() ? joint_id(id, joint) : joint.id();
-    return order(id, SetJointParameters{known_joint, axis, false, std::move(values)});
+    return order(id, SetJointParameters{joint_for_order(id, joint), axis, false, std::move(values)});
 }
 
 OrderResult Client::reset_joint_parameters(const RobotRef& robot, const JointRef& joint, int axis) {
     const RobotId id = id_for_order(robot);
-    const JointId known_joint = joint.named() ? joint_id(id, joint) : joint.id();
-    return order(id, SetJointParameters{known_joint, axis, true, {}});
+    return order(id, SetJointParameters{joint_for_order(id, joint), axis, true, {}});
 }
 
 OrderResult Client::command(const RobotRef& robot, const std::string& name, std::vector<double> values) {
@@ -285,6 +282,10 @@ std::vector<RadioMessage> Client::received(const RobotRef& robot, const SensorRe
 /// Ids go on to the check of the order, which refuses one that does not exist.
 RobotId Client::id_for_order(const RobotRef& robot) const {
     return robot.named() ? this->robot(robot) : robot.id();
+}
+
+JointId Client::joint_for_order(RobotId robot, const JointRef& joint) const {
+    return joint.named() ? joint_id(robot, joint) : joint.id();
 }
 
 LinkId Client::link_for_order(RobotId robot, const LinkRef& link) const {

@@ -221,7 +221,8 @@ class Client : private SensorSources {
     /// Keeps a refusal for the report of the run.
     virtual Error report_refusal(Error error) { return error; }
     RobotId id_for_order(const RobotRef& robot) const;
-    const Joint& axis_of_joint(RobotId robot, const JointRef& joint, int axis) const;
+    const Joint& axis_of_joint(RobotId robot, JointId joint, int axis) const;
+    JointId joint_for_order(RobotId robot, const JointRef& joint) const;
     LinkId link_for_order(RobotId robot, const LinkRef& link) const;
     RobotId robot_named(const std::string& name) const;
     Sample sample(RobotId robot, const SensorRef& sensor, const SensorKind& asked);

@@ -67,7 +67,7 @@ Result<> bring_up_to_date(Database& db) {
     return db.run("COMMIT;");
 }
 
-/// What a file has when a writer opens it, it has for good: also of a run that was killed.
+/// The ends of all logs of a file that a writer opens: no row of them may go, also of a run that was killed.
 std::vector<Row> ends_of(const Journal& journal) {
     std::vector<Row> ends;
     for (const Branch& b : journal.branches()) ends.push_back(to_row(LogEnd{b.id, journal.tail(b.id)}));
@@ -364,7 +364,7 @@ Result<> JournalWriter::close() {
     return Ok{};
 }
 
-/// Of the branch that was written last, unless some of its entries are missing. Without it the end is open.
+/// Marks the end of the branch that was written last, unless entries of it are missing: then its end is open.
 void JournalWriter::mark_end() {
     if (marks_ends_ && branch_ != 0 && waiting_.empty() && !lost_ && !trouble_)
         (void)db_->insert(kInsertEnd, {to_row(LogEnd{branch_, tail_})});

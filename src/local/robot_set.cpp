@@ -13,14 +13,21 @@ namespace roboss {
 
 namespace {
 
-/// One value of each axis of each robot, row by row.
-void read_joints(const RobotSet& set, const RunAccess& run, double JointState::*value,
-                 std::span<double> out) {
+/// number(type, robot, axis) of each axis of each robot, row by row.
+template <class Number>
+void read_axes(const RobotSet& set, std::span<double> out, Number number) {
     ROBOSS_CHECK(out.size() == set.size() * set.axes().size(), std::to_string(out.size()) + " numbers");
     double* to = out.data();
     for (std::size_t i = 0; i < set.size(); ++i)
         for (const JointAxis& axis : set.axes_of_row(i))
-            *to++ = joint_state(set.type_of_row(i), run.state(set.robots()[i]), axis.joint, axis.axis).*value;
+            *to++ = number(set.type_of_row(i), set.robots()[i], axis);
+}
+
+void read_joints(const RobotSet& set, const RunAccess& run, double JointState::*value,
+                 std::span<double> out) {
+    read_axes(set, out, [&](const RobotType& type, RobotId robot, const JointAxis& axis) {
+        return joint_state(type, run.state(robot), axis.joint, axis.axis).*value;
+    });
 }
 
 /// Adds the link's kinetic and potential energy, J.
@@ -102,32 +109,23 @@ void RobotSet::joint_velocities(const RunAccess& run, std::span<double> out) con
 }
 
 void RobotSet::joint_efforts(const RunAccess& run, std::span<double> out) const {
-    ROBOSS_CHECK(out.size() == size() * axes().size(), std::to_string(out.size()) + " numbers");
-    double* to = out.data();
-    for (std::size_t i = 0; i < size(); ++i)
-        for (const JointAxis& axis : axes_of_row(i))
-            *to++ = motor_effort(*model_, type_of_row(i), run.state(robots_[i]), axis.joint, axis.axis);
+    read_axes(*this, out, [&](const RobotType& type, RobotId robot, const JointAxis& axis) {
+        return motor_effort(*model_, type, run.state(robot), axis.joint, axis.axis);
+    });
 }
 
 void RobotSet::joint_parameters(const RunAccess& run, JointParameter parameter, std::span<double> out) const {
-    ROBOSS_CHECK(out.size() == size() * axes().size(), std::to_string(out.size()) + " numbers");
-    double* to = out.data();
-    for (std::size_t i = 0; i < size(); ++i)
-        for (const JointAxis& axis : axes_of_row(i)) {
-            const RobotType& type = type_of_row(i);
-            const Joint& joint = type.joints[axis.joint.index()];
-            *to++ = dof_of(type, run.state(robots_[i]), joint, axis.axis).*info_of(parameter).member;
-        }
+    const auto member = info_of(parameter).member;
+    read_axes(*this, out, [&](const RobotType& type, RobotId robot, const JointAxis& axis) {
+        return dof_of(type, run.state(robot), type.joints[axis.joint.index()], axis.axis).*member;
+    });
 }
 
 void RobotSet::file_parameters(JointParameter parameter, std::span<double> out) const {
-    ROBOSS_CHECK(out.size() == size() * axes().size(), std::to_string(out.size()) + " numbers");
-    double* to = out.data();
-    for (std::size_t i = 0; i < size(); ++i)
-        for (const JointAxis& axis : axes_of_row(i)) {
-            const RobotType& type = type_of_row(i);
-            *to++ = type.dof(type.joints[axis.joint.index()], axis.axis).*info_of(parameter).member;
-        }
+    const auto member = info_of(parameter).member;
+    read_axes(*this, out, [&](const RobotType& type, RobotId, const JointAxis& axis) {
+        return type.dof(type.joints[axis.joint.index()], axis.axis).*member;
+    });
 }
 
 void RobotSet::energies(const RunAccess& run, std::span<double> out) const {

@@ -39,12 +39,26 @@ std::string number_text(double value) {
     return buffer;
 }
 
-/// Whether any robot may have this number, whatever its type.
-bool is_sound(JointParameter parameter, double value) {
+/// A number that no joint can have: what is wrong with it, as the end of a sentence.
+struct ValueFault {
+    std::string text;
+    const char *remedy, *code;
+};
+
+/// The fault of a number, whatever the type of the robot; nullopt: none.
+std::optional<ValueFault> fault_of(JointParameter parameter, double value) {
     const JointParameterInfo& row = info_of(parameter);
-    if (std::isnan(value) || (row.signless && value < 0)) return false;
-    if (parameter == JointParameter::kLimitStiffness && !(value > 0)) return false;
-    return std::isinf(value) ? row.endless : std::fabs(value) <= kLargestParameter;
+    if (std::isnan(value) || (std::isinf(value) && !row.endless))
+        return ValueFault{"", "give a finite number", "not-finite"};
+    if (row.signless && value < 0)
+        return ValueFault{"; it cannot be negative", "give a number of at least 0", "bad-parameter"};
+    if (parameter == JointParameter::kLimitStiffness && value == 0)
+        return ValueFault{"; a limit that does not push is none",
+                          "give a stiffness above 0, or move the limits", "bad-parameter"};
+    if (std::isfinite(value) && std::fabs(value) > kLargestParameter)
+        return ValueFault{"; more than " + number_text(kLargestParameter) + " is no number of a joint",
+                          "give at most that; docs/physics.md lists the limits of orders", "beyond-limit"};
+    return std::nullopt;
 }
 
 bool are_within(const Dof& own, const Dof& of_type) {
@@ -81,7 +95,7 @@ class AxisCheck {
         return check_value(one, row);
     }
 
-    /// Whether a joint of this kind has such a number.
+    /// Refuses a number that joints of this kind do not have.
     Result<> check_kind(const JointParameterValue& one, const JointParameterInfo& row) const {
         if (joint_type(joint_.kind).is_isotropic() && !row.of_balls)
             return Error{std::string("'") + row.name + "' of " + called_ + ": a ball joint has none",
@@ -92,28 +106,20 @@ class AxisCheck {
             return Error{"'armature' of " + called_ + ": it closes a loop, and has no rotor inertia",
                          "give it to a joint that the loop is not cut at", "loop-joint"};
         if (!type_.elimination.empty())
-            return Error{"'armature' of " + called_ + ": robots of so many loops have no rotor inertias",
+            return Error{"'armature' of " + called_ + ": robots with this many loops have no rotor inertias",
                          "write it in the world file, for all robots of the type", "many-loops"};
         return Ok{};
     }
 
     Result<> check_value(const JointParameterValue& one, const JointParameterInfo& row) const {
+        const std::optional<ValueFault> fault = fault_of(one.parameter, one.value);
+        if (!fault) return Ok{};
         const auto motions = joint_type(joint_.kind).motions;
         const auto motion = std::min(static_cast<std::size_t>(order_.axis), motions.size() - 1);
         const bool turns = joint_traits(motions[motion]).turns;
-        const std::string what = std::string("'") + row.name + "' of " + called_ + " is " +
-                                 number_text(one.value) + " " + (turns ? row.turning : row.sliding);
-        if (std::isnan(one.value) || (std::isinf(one.value) && !row.endless))
-            return Error{what, "give a finite number", "not-finite"};
-        if (row.signless && one.value < 0)
-            return Error{what + "; it cannot be negative", "give a number of at least 0", "bad-parameter"};
-        if (one.parameter == JointParameter::kLimitStiffness && one.value == 0)
-            return Error{what + "; a limit that does not push is none",
-                         "give a stiffness above 0, or move the limits", "bad-parameter"};
-        if (std::isfinite(one.value) && std::fabs(one.value) > kLargestParameter)
-            return Error{what + "; more than " + number_text(kLargestParameter) + " is no number of a joint",
-                         "give at most that; docs/physics.md lists the limits of orders", "beyond-limit"};
-        return Ok{};
+        return Error{std::string("'") + row.name + "' of " + called_ + " is " + number_text(one.value) + " " +
+                         (turns ? row.turning : row.sliding) + fault->text,
+                     fault->remedy, fault->code};
     }
 
     Result<> check_axis_limits() const {
@@ -214,7 +220,7 @@ bool may_own(const RobotType& type, std::span<const Dof> own) {
     for (std::size_t i = 0; i < own.size(); ++i) {
         for (std::size_t p = 0; p < kJointParameters; ++p) {
             const double value = own[i].*kRows[p].member;
-            if (value != axes[i].*kRows[p].member && !is_sound(static_cast<JointParameter>(p), value))
+            if (value != axes[i].*kRows[p].member && fault_of(static_cast<JointParameter>(p), value))
                 return false;
         }
         if (!are_within(own[i], axes[i])) return false;

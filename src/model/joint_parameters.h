@@ -78,7 +78,7 @@ struct SetJointParameters {
     friend bool operator==(const SetJointParameters&, const SetJointParameters&) = default;
 };
 
-/// What is wrong with the order for a robot of this type, or Ok. Codes: "no-joint", "no-axis" (it has no such
+/// Checks the order for a robot of this type. Codes of its refusals: "no-joint", "no-axis" (it has no such
 /// axis), "no-parameter" (it sets nothing, or what does not exist), "repeated-parameter", "not-finite",
 /// "bad-parameter" (negative, or limits in the wrong order), "beyond-limit" (of all orders), "half-limits"
 /// (one of the two), "beyond-type" (limits that are wider than those of the type), "no-position" (a ball
@@ -93,7 +93,7 @@ void apply_joint_parameters(const RobotType& type, const SetJointParameters& ord
 /// The axes of a type in the order of RobotState::motors: those of the tree, then those of loop joints.
 std::vector<Dof> axes_of(const RobotType& type);
 
-/// Whether a state may have these own numbers: none, or one for each axis of axes_of() that an order may have
+/// True if a state may have these own numbers: none, or one for each axis of axes_of() that an order may have
 /// set.
 bool may_own(const RobotType& type, std::span<const Dof> own);
 

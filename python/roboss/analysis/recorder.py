@@ -38,8 +38,9 @@ def record(source: Source, patterns: Union[str, Iterable[str], None] = None, *, 
     """Records variables of a run.
 
     Args:
-        source: a journal (its path, also as FILE#BRANCH and FILE@UNTIL, or a Journal), which is replayed; a world (its path, or a World), which is run; a
-            Simulation, which is stepped on; or the path of a recording, of which a part is taken.
+        source: a journal (its path, also as FILE#BRANCH and FILE@UNTIL, or a Journal), which is replayed; a world (its
+            path, or a World), which is run; a Simulation, which is stepped on; or the path of a recording, of which a
+            part is taken.
         patterns: of variables, as of Variables; None: all.
         until: time of the last sample, s; None: the end of the journal.
         every: time between two samples, s; rounded to ticks, at least one.

@@ -231,18 +231,20 @@ int verify(const JournalOptions& o) {
         if (!done) return print(done.error()), interrupted() ? kInterrupted : kRunFailed;
     }
     const std::vector<BranchId> unended = open_ends(journal, branches);
-    if (o.json)
+    if (o.json) {
         print_json({{"file", journal.path()},
                     {"good", bad == 0},
                     {"different", bad},
                     {"open_ends", unended},
                     {"stretches", stretches}});
-    for (const BranchId branch : o.json ? std::vector<BranchId>{} : unended)
-        say("branch {}  its end is open: the run still writes or was killed, or an older version wrote it; "
-            "rows "
-            "that are missing there are not noticed\n",
-            branch);
-    if (!o.json) say("{} stretches replayed, {} different\n", stretches.size(), bad);
+    } else {
+        for (const BranchId branch : unended)
+            say("branch {}  its end is open: the run still writes or was killed, or an older version wrote "
+                "it; "
+                "rows that are missing there are not noticed\n",
+                branch);
+        say("{} stretches replayed, {} different\n", stretches.size(), bad);
+    }
     return bad == 0 ? kSuccess : kRunFailed;
 }
 

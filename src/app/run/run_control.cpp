@@ -316,7 +316,7 @@ Run::Done Run::act(const ChangeAccuracy& change) {
     return change_model(edit.value(), text);
 }
 
-/// What is told of robots that come: warnings, and what is noted about their start.
+/// The findings about robots that come: warnings, and notes about their start.
 std::vector<std::string> Run::findings_of(const ModelEdit& edit, Diagnostics found) const {
     for (const Diagnostic& d : edit.found.items()) found.add(d);
     report_overlaps(*edit.model, carry_over(edit, simulation_->saved_run().states), model_->robots.size(),
