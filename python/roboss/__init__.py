@@ -22,11 +22,11 @@ from .camera import Camera, RobotCameras
 from .builder import ModelBuilder, WorldBuilder
 from .errors import (ArgumentError, ClusterError, JournalError, OrderError, RobossError, SaveError, SensorError,
                      StateError, UnknownNameError, ViewError, WorldError, WorldWarning)
-from .joint_parameters import JointParameters
 from .journal import Journal
 from .kinematics import Follower, IKSolution, RobotModel
 from .mujoco_order import MujocoOrder
 from .padded import PaddedRobots
+from .parameters import JointParameters, LinkParameters
 from .radio import Message, Radio
 from .remote import RemoteSimulation, connect
 from .robots import Robots
@@ -42,9 +42,10 @@ from .world import World, example, load
 __version__ = "0.2.0"
 __all__ = [
     "ActionSpec", "ArgumentError", "Batch", "CONTACT", "Camera", "CartesianTrajectory", "ClusterError", "Columns",
-    "Diagnostic", "Follower", "IKSolution", "JointParameters", "JointTrajectory", "Journal", "JournalError", "Message",
-    "ModelBuilder", "MujocoOrder", "ObservationSpec", "OrderError", "PaddedRobots", "Parameter", "Radio",
-    "RemoteSimulation", "RobossError", "RobotCameras", "RobotModel", "Robots", "Save", "SaveError", "Sensor",
-    "SensorDescription", "SensorError", "Simulation", "StateError", "UnknownNameError", "ValueDescription", "View",
-    "ViewError", "World", "WorldBuilder", "WorldError", "WorldWarning", "connect", "ctraj", "example", "jtraj", "load",
+    "Diagnostic", "Follower", "IKSolution", "JointParameters", "JointTrajectory", "Journal", "JournalError",
+    "LinkParameters", "Message", "ModelBuilder", "MujocoOrder", "ObservationSpec", "OrderError", "PaddedRobots",
+    "Parameter", "Radio", "RemoteSimulation", "RobossError", "RobotCameras", "RobotModel", "Robots", "Save",
+    "SaveError", "Sensor", "SensorDescription", "SensorError", "Simulation", "StateError", "UnknownNameError",
+    "ValueDescription", "View", "ViewError", "World", "WorldBuilder", "WorldError", "WorldWarning", "connect", "ctraj",
+    "example", "jtraj", "load",
 ]

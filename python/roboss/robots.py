@@ -10,8 +10,8 @@ from . import _core
 from .camera import RobotCameras
 from .errors import ArgumentError, StateError, UnknownNameError
 from .mujoco_order import MujocoOrder
-from .joint_parameters import JointParameters
 from .names import filled, index_of, names_of, numbers, real, text, unknown, whole
+from .parameters import JointParameters, LinkParameters
 from .radio import Radio
 from .sensors import Sensor
 from .specs import ActionSpec, ObservationSpec, action_spec, observation_spec
@@ -303,6 +303,16 @@ class Robots:
         array([[0.3, 0.3, 0.3, 0.3]])
         """
         return JointParameters(self)
+
+    @property
+    def link_parameters(self) -> LinkParameters:
+        """Numbers of their links: masses, centres of mass, inertias, friction, bounce. See LinkParameters.
+
+        >>> sim = roboss.Simulation(roboss.example("crossroads.sdf"))
+        >>> cars = sim.robots("car_*")
+        >>> cars.link_parameters["friction"] = 0.3                          # slippery, all links that touch
+        """
+        return LinkParameters(self)
 
     def set_joint_targets(self, targets: ArrayLike, joints: Union[str, Iterable[str], None] = None, *,
                           mode: str = "velocity", max_effort: Optional[float] = None,

@@ -1,6 +1,7 @@
 // RobotSet: arrays of some robots of a Simulation. Rows and columns are checked in Python; sizes are checked
 // again in C++.
 #include <nanobind/stl/optional.h>
+#include <nanobind/stl/pair.h>
 #include <nanobind/stl/shared_ptr.h>
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/tuple.h>
@@ -130,6 +131,34 @@ void set_joints(Robots& robots, const std::vector<std::size_t>& columns, std::ui
     });
 }
 
+void fill_link_parameters(Robots& robots, std::size_t parameter, bool of_file, const Out& out) {
+    const auto which = static_cast<LinkParameter>(parameter);
+    robots.for_each(numbers(out), [&](RunAccess& run, std::span<double> part) {
+        if (of_file)
+            robots.set().file_link_parameters(which, part);
+        else
+            robots.set().link_parameters(run, which, part);
+    });
+}
+
+void set_link_parameters(Robots& robots, const std::vector<std::size_t>& links,
+                         const std::vector<std::size_t>& parameters, const In& values) {
+    std::vector<LinkParameter> which;
+    for (const std::size_t parameter : parameters) which.push_back(static_cast<LinkParameter>(parameter));
+    Result<> done = Ok{};
+    robots.for_each(numbers(values), [&](RunAccess& run, std::span<const double> part) {
+        if (done) done = robots.set().set_link_parameters(run, links, which, part);
+    });
+    finish_change(robots, done);
+}
+
+void reset_link_parameters(Robots& robots, const std::vector<std::size_t>& links) {
+    Result<> done = Ok{};
+    for (const auto& simulation : robots.simulations)
+        if (done) done = robots.set().reset_link_parameters(simulation->access(), links);
+    finish_change(robots, done);
+}
+
 void fill_parameters(Robots& robots, std::size_t parameter, bool of_file, const Out& out) {
     const auto which = static_cast<JointParameter>(parameter);
     robots.for_each(numbers(out), [&](RunAccess& run, std::span<double> part) {
@@ -188,6 +217,11 @@ void bind_robots(nb::module_& module) {
         .def("set_joint_parameters", &set_parameters, nb::arg("columns"), nb::arg("parameters"),
              nb::arg("values"))
         .def("reset_joint_parameters", &reset_parameters, nb::arg("columns"))
+        .def("link_parameters", &fill_link_parameters, nb::arg("parameter"), nb::arg("of_file"),
+             nb::arg("out"))
+        .def("set_link_parameters", &set_link_parameters, nb::arg("links"), nb::arg("parameters"),
+             nb::arg("values"))
+        .def("reset_link_parameters", &reset_link_parameters, nb::arg("links"))
         .def(
             "apply_wrenches",
             [](Robots& r, std::optional<std::size_t> link, const In& wrenches, Tick ticks) {
@@ -208,6 +242,9 @@ void bind_robots(nb::module_& module) {
     for (const JointParameterInfo& row : joint_parameters())
         parameters.emplace_back(row.name, row.turning, row.sliding);
     module.attr("joint_parameters") = parameters;  // name, unit of axes that turn, unit of those that slide
+    std::vector<std::pair<std::string, std::string>> of_links;
+    for (const LinkParameterInfo& row : link_parameters()) of_links.emplace_back(row.name, row.unit);
+    module.attr("link_parameters") = of_links;  // name, unit
     module.def("robots", &make_robots, nb::arg("simulations"), nb::arg("ids"));
 }
 

@@ -151,6 +151,12 @@ double Client::joint_parameter(const RobotRef& robot, const JointRef& joint, Joi
     return dof_of(type, state(id), info, axis).*info_of(parameter).member;
 }
 
+std::optional<double> Client::link_parameter(const RobotRef& robot, const LinkRef& link,
+                                             LinkParameter parameter) const {
+    const RobotId id = this->robot(robot);
+    return link_number(type_of(model().type_of(id), state(id)), this->link(id, link), parameter);
+}
+
 OrderResult Client::set_pose(const RobotRef& robot, const Pose& X_WR) {
     return order(id_for_order(robot), SetPose{X_WR});
 }
@@ -203,6 +209,17 @@ OrderResult Client::set_joint_parameters(const RobotRef& robot, const JointRef& 
 OrderResult Client::reset_joint_parameters(const RobotRef& robot, const JointRef& joint, int axis) {
     const RobotId id = id_for_order(robot);
     return order(id, SetJointParameters{joint_for_order(id, joint), axis, true, {}});
+}
+
+OrderResult Client::set_link_parameters(const RobotRef& robot, const LinkRef& link,
+                                        std::vector<LinkParameterValue> values) {
+    const RobotId id = id_for_order(robot);
+    return order(id, SetLinkParameters{link_for_order(id, link), false, std::move(values)});
+}
+
+OrderResult Client::reset_link_parameters(const RobotRef& robot, const LinkRef& link) {
+    const RobotId id = id_for_order(robot);
+    return order(id, SetLinkParameters{link_for_order(id, link), true, {}});
 }
 
 OrderResult Client::command(const RobotRef& robot, const std::string& name, std::vector<double> values) {

@@ -60,6 +60,11 @@ class Client : private SensorSources {
     double joint_parameter(const RobotRef& robot, const JointRef& joint, JointParameter parameter,
                            int axis = 0) const;
 
+    /// One number of a link: the robot's own, or its type's. nullopt: the link has none (no mass, no
+    /// collision shapes).
+    std::optional<double> link_parameter(const RobotRef& robot, const LinkRef& link,
+                                         LinkParameter parameter) const;
+
     // --- ids of names, for programs that look them up once. Each throws if there is no such name or id.
     RobotId robot(const RobotRef& robot) const;          ///< id of a robot
     const RobotType& type(const RobotRef& robot) const;  ///< its links, joints, sensors and commands
@@ -107,6 +112,13 @@ class Client : private SensorSources {
                                      std::vector<JointParameterValue> values, int axis = 0);
     /// All numbers of the axis are those of its type again.
     OrderResult reset_joint_parameters(const RobotRef& robot, const JointRef& joint, int axis = 0);
+    /// Gives the robot own numbers of one link: mass, centre of mass, inertia, friction, bounce
+    /// (model/link_parameters.h has names and units). Those that are not named stay; the six numbers of an
+    /// inertia come together.
+    OrderResult set_link_parameters(const RobotRef& robot, const LinkRef& link,
+                                    std::vector<LinkParameterValue> values);
+    /// All numbers of the link are those of its type again.
+    OrderResult reset_link_parameters(const RobotRef& robot, const LinkRef& link);
     /// Latches a command of the robot's on-board controllers, e.g. "cmd_vel"; `roboss check` lists names,
     /// values and units. Of a list: row by row.
     OrderResult command(const RobotRef& robot, const std::string& name, std::vector<double> values);

@@ -38,7 +38,7 @@ class ControlProgram {
 };
 
 /// Version of this interface; the loader refuses a library built against another one.
-inline constexpr int kControlProgramAbi = 14;
+inline constexpr int kControlProgramAbi = 15;
 
 }  // namespace roboss
 

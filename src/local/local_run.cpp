@@ -113,6 +113,8 @@ Result<> LocalRun::restore(const LocalSave& save) {
                      "other-world"};
     seed_ = save.seed, tick_ = save.tick, given_ = save.given;
     states_ = save.states;
+    for (std::size_t r = 0; r < states_.size(); ++r)
+        states_[r].own_type.move_to(model().type_of(RobotId(r)), states_[r].own);
     orders_ = save.orders;
     stepper_.forget();
     changed();

@@ -54,6 +54,20 @@ void add_other_limit(const RobotType& type, const RobotState& state, SetJointPar
     if (upper && !lower) own.values.push_back({JointParameter::kLower, now.lower});
 }
 
+/// An inertia is ordered as a whole: of an order with a part of it, the rest as it is.
+void add_other_inertias(const RobotType& type, SetLinkParameters& own) {
+    const auto is_inertia = [](const LinkParameterValue& one) {
+        return one.parameter >= LinkParameter::kInertiaXx && one.parameter <= LinkParameter::kInertiaYz;
+    };
+    if (std::ranges::none_of(own.values, is_inertia)) return;
+    for (auto p = LinkParameter::kInertiaXx; p <= LinkParameter::kInertiaYz;
+         p = static_cast<LinkParameter>(static_cast<int>(p) + 1)) {
+        const std::optional<double> now = link_number(type, own.link, p);
+        if (now && std::ranges::count(own.values, p, &LinkParameterValue::parameter) == 0)
+            own.values.push_back({p, *now});
+    }
+}
+
 /// Whether this is scenery that carries robot A: the normal is within 45 degrees of the vertical.
 bool carries(const ContactReport& contact, const Vec3& gravity) {
     return !contact.robot_b.valid() && dot(contact.normal, gravity) < -std::sqrt(0.5) * norm(gravity);
@@ -128,9 +142,26 @@ void RobotSet::file_parameters(JointParameter parameter, std::span<double> out) 
     });
 }
 
+void RobotSet::link_parameters(const RunAccess& run, LinkParameter parameter, std::span<double> out) const {
+    for (std::size_t i = 0; i < size(); ++i) {
+        const RobotType& type = type_of(type_of_row(i), run.state(robots_[i]));
+        double* to = row(out, i, shared_.links.size());
+        for (const SharedPart& link : shared_.links)
+            *to++ = link_number(type, LinkId(part_of(link, i)), parameter).value_or(std::nan(""));
+    }
+}
+
+void RobotSet::file_link_parameters(LinkParameter parameter, std::span<double> out) const {
+    for (std::size_t i = 0; i < size(); ++i) {
+        double* to = row(out, i, shared_.links.size());
+        for (const SharedPart& link : shared_.links)
+            *to++ = link_number(type_of_row(i), LinkId(part_of(link, i)), parameter).value_or(std::nan(""));
+    }
+}
+
 void RobotSet::energies(const RunAccess& run, std::span<double> out) const {
     for (std::size_t i = 0; i < size(); ++i) {
-        const RobotType& type = model_->type_of(robots_[i]);
+        const RobotType& type = type_of(model_->type_of(robots_[i]), run.state(robots_[i]));
         double* energy = row(out, i, kEnergyColumns);
         energy[0] = energy[1] = 0;
         for (std::size_t l = 0; l < type.links.size(); ++l)
@@ -237,6 +268,35 @@ Result<> RobotSet::reset_joint_parameters(RunAccess& run, std::span<const std::s
             orders.push_back({run.tick(), ClientId(0U), 0, robots_[i],
                               SetJointParameters{axis.joint, axis.axis, true, {}}});
         }
+    return change_all(run, orders);
+}
+
+Result<> RobotSet::set_link_parameters(RunAccess& run, std::span<const std::size_t> links,
+                                       std::span<const LinkParameter> parameters,
+                                       std::span<const double> values) const {
+    const std::size_t width = parameters.size() * links.size();
+    ROBOSS_CHECK(values.size() == size() * width, std::to_string(values.size()) + " numbers");
+    std::vector<Order> orders;
+    for (std::size_t i = 0; i < size(); ++i)
+        for (std::size_t k = 0; k < links.size(); ++k) {
+            SetLinkParameters own{LinkId(part_of(shared_.links[links[k]], i)), false, {}};
+            for (std::size_t p = 0; p < parameters.size(); ++p) {
+                const double value = values[i * width + p * links.size() + k];
+                if (!std::isnan(value)) own.values.push_back({parameters[p], value});
+            }
+            if (own.values.empty()) continue;
+            add_other_inertias(type_of(type_of_row(i), run.state(robots_[i])), own);
+            orders.push_back({run.tick(), ClientId(0U), 0, robots_[i], std::move(own)});
+        }
+    return change_all(run, orders);
+}
+
+Result<> RobotSet::reset_link_parameters(RunAccess& run, std::span<const std::size_t> links) const {
+    std::vector<Order> orders;
+    for (std::size_t i = 0; i < size(); ++i)
+        for (const std::size_t link : links)
+            orders.push_back({run.tick(), ClientId(0U), 0, robots_[i],
+                              SetLinkParameters{LinkId(part_of(shared_.links[link], i)), true, {}}});
     return change_all(run, orders);
 }
 

@@ -58,6 +58,11 @@ class RobotSet {
     void joint_parameters(const RunAccess& run, JointParameter parameter, std::span<double> out) const;
     /// The same as the file has it, whatever own numbers robots have.
     void file_parameters(JointParameter parameter, std::span<double> out) const;
+    /// One number of each link that all robots have, size() x links: the robot's own, or its type's; not a
+    /// number where the link has none.
+    void link_parameters(const RunAccess& run, LinkParameter parameter, std::span<double> out) const;
+    /// The same as the file has it.
+    void file_link_parameters(LinkParameter parameter, std::span<double> out) const;
     /// Kinetic energy of the links, and their potential energy in the world's gravity (zero at the world's
     /// origin), size() x kEnergyColumns: J. Rotor inertias and springs are not in it.
     void energies(const RunAccess& run, std::span<double> out) const;
@@ -82,6 +87,14 @@ class RobotSet {
                                   std::span<const double> values) const;
     /// All numbers of these axes are those of the robots' types again.
     Result<> reset_joint_parameters(RunAccess& run, std::span<const std::size_t> columns) const;
+
+    /// Own numbers of some links of each robot, size() x parameters.size() x links.size(), in the units of
+    /// link_parameters(). What is not a number stays. Of a part of an inertia, the rest stays.
+    Result<> set_link_parameters(RunAccess& run, std::span<const std::size_t> links,
+                                 std::span<const LinkParameter> parameters,
+                                 std::span<const double> values) const;
+    /// All numbers of these links are those of the robots' types again.
+    Result<> reset_link_parameters(RunAccess& run, std::span<const std::size_t> links) const;
 
     // What follows are orders: they take effect at the beginning of the next tick.
 

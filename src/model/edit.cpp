@@ -356,6 +356,7 @@ std::vector<RobotState> carry_over(const ModelEdit& edit, const std::vector<Robo
         if (!edit.now[i].valid()) continue;
         RobotState& state = carried[edit.now[i].index()];
         state = states[i];
+        state.own_type = OwnType(edit.model->type_of(edit.now[i]), state.own);
         std::erase_if(state.contacts, [&](const ContactMemory& c) {
             return c.other_robot != RobotId::kNone && is_gone(c.other_robot);
         });

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <tuple>
 
 #include "core/fixed_math.h"
 #include "model/joint_motion.h"
@@ -65,6 +66,29 @@ bool are_within(const Dof& own, const Dof& of_type) {
     return own.lower <= own.upper && own.lower >= of_type.lower && own.upper <= of_type.upper;
 }
 
+bool is_rotor(JointParameter parameter) {
+    return parameter == JointParameter::kArmature;
+}
+
+/// Whether no order sets this number of a joint of this kind, unless to 0 of a rotor.
+bool lacks(const RobotType& type, const Joint& joint, JointParameter parameter) {
+    if (joint_type(joint.kind).is_isotropic() && !info_of(parameter).of_balls) return true;
+    return is_rotor(parameter) && (joint.loop >= 0 || !type.elimination.empty());
+}
+
+auto place_of(const OwnJointNumber& one) {
+    return std::tuple(one.joint, one.axis, one.number.parameter);
+}
+
+void put_number(const OwnJointNumber& one, std::vector<OwnJointNumber>& own) {
+    const auto at = std::ranges::lower_bound(own, place_of(one), {},
+                                             [](const OwnJointNumber& other) { return place_of(other); });
+    if (at != own.end() && place_of(*at) == place_of(one))
+        at->number.value = one.number.value;
+    else
+        own.insert(at, one);
+}
+
 /// Checks the numbers of one axis, and names what is wrong.
 class AxisCheck {
   public:
@@ -101,7 +125,7 @@ class AxisCheck {
             return Error{std::string("'") + row.name + "' of " + called_ + ": a ball joint has none",
                          "set its damping, friction, armature, velocity_gain, max_effort or max_velocity",
                          "no-position"};
-        if (one.parameter != JointParameter::kArmature || one.value == 0) return Ok{};
+        if (one.value == 0 || !lacks(type_, joint_, one.parameter)) return Ok{};
         if (joint_.loop >= 0)
             return Error{"'armature' of " + called_ + ": it closes a loop, and has no rotor inertia",
                          "give it to a joint that the loop is not cut at", "loop-joint"};
@@ -196,39 +220,54 @@ Result<> check_joint_parameters(const std::string& robot, const RobotType& type,
 
 void apply_joint_parameters(const RobotType& type, const SetJointParameters& order, RobotState& state) {
     const Joint& joint = type.joints[order.joint.index()];
-    const std::size_t index = type.motor_index(joint, order.axis);
-    if (state.own_dofs.empty()) state.own_dofs = axes_of(type);
-    Dof& dof = state.own_dofs[index];
-    const Dof before = dof;
-    if (order.reset) dof = type.dof(joint, order.axis);
-    for (const JointParameterValue& one : order.values) dof.*info_of(one.parameter).member = one.value;
-    fit_motor(before, dof, state.motors[index]);
-    if (order.reset || dof.armature != before.armature) renew_mobility(type, state.own_dofs);
-    if (state.own_dofs == axes_of(type)) state.own_dofs.clear();
+    const Dof before = dof_of(type, state, joint, order.axis);
+    OwnNumbers own = state.own;
+    const auto is_of_axis = [&](const OwnJointNumber& one) {
+        return one.joint == order.joint && one.axis == order.axis;
+    };
+    if (order.reset) std::erase_if(own.joints, is_of_axis);
+    for (const JointParameterValue& one : order.values)
+        put_number({order.joint, order.axis, one}, own.joints);
+    const Dof& of_type = type.dof(joint, order.axis);
+    std::erase_if(own.joints, [&](const OwnJointNumber& one) {
+        return is_of_axis(one) && one.number.value == of_type.*info_of(one.number.parameter).member;
+    });
+    set_own(type, std::move(own), state);
+    fit_motor(before, dof_of(type, state, joint, order.axis),
+              state.motors[type.motor_index(joint, order.axis)]);
 }
 
-std::vector<Dof> axes_of(const RobotType& type) {
-    std::vector<Dof> axes = type.dofs;
-    for (const LoopJoint& loop : type.loops) axes.insert(axes.end(), loop.dofs.begin(), loop.dofs.end());
-    return axes;
-}
-
-bool may_own(const RobotType& type, std::span<const Dof> own) {
-    if (own.empty()) return true;
-    const std::vector<Dof> axes = axes_of(type);
-    if (own.size() != axes.size()) return false;
+bool may_own(const RobotType& type, std::span<const OwnJointNumber> own) {
     for (std::size_t i = 0; i < own.size(); ++i) {
-        for (std::size_t p = 0; p < kJointParameters; ++p) {
-            const double value = own[i].*kRows[p].member;
-            if (value != axes[i].*kRows[p].member && fault_of(static_cast<JointParameter>(p), value))
-                return false;
-        }
-        if (!are_within(own[i], axes[i])) return false;
-        const bool no_rotor = i >= type.dofs.size() || !type.elimination.empty();
-        if (no_rotor && own[i].armature != axes[i].armature) return false;
-        if (!(own[i].inverse_inertia >= 0 && std::isfinite(own[i].inverse_inertia))) return false;
+        if (i > 0 && place_of(own[i - 1]) >= place_of(own[i])) return false;
+        const auto& [joint, axis, number] = own[i];
+        if (joint.index() >= type.joints.size()) return false;
+        const Joint& info = type.joints[joint.index()];
+        if (axis < 0 || axis >= info.nv || static_cast<std::size_t>(number.parameter) >= kJointParameters ||
+            fault_of(number.parameter, number.value) || lacks(type, info, number.parameter))
+            return false;
     }
-    return true;
+    RobotType with = type;
+    put_numbers(own, with);
+    return std::ranges::all_of(own, [&](const OwnJointNumber& one) {
+        const Joint& joint = type.joints[one.joint.index()];
+        return are_within(with.dof(joint, one.axis), type.dof(joint, one.axis));
+    });
+}
+
+bool put_numbers(std::span<const OwnJointNumber> own, RobotType& type) {
+    bool rotors = false;
+    for (const auto& [id, axis, number] : own) {
+        const Joint& joint = type.joints[id.index()];
+        const auto index = type.motor_index(joint, axis);
+        Dof& dof =
+            joint.loop < 0
+                ? type.dofs[index]
+                : type.loops[static_cast<std::size_t>(joint.loop)].dofs[static_cast<std::size_t>(axis)];
+        dof.*info_of(number.parameter).member = number.value;
+        rotors |= number.parameter == JointParameter::kArmature;
+    }
+    return rotors;
 }
 
 }  // namespace roboss

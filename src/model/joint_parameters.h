@@ -1,6 +1,6 @@
 // Numbers of joint axes that may differ from robot to robot and change while a world runs: damping, friction,
 // springs, rotor inertia, gains and bounds of motors, limits. A robot's type has them from the file; a robot
-// that was ordered others keeps them in its state (RobotState::own_dofs). Decision 0050.
+// that was ordered others keeps those that differ in its state (own_numbers.h). Decision 0050.
 #pragma once
 
 #include <cstdint>
@@ -66,6 +66,15 @@ struct JointParameterValue {
     friend bool operator==(const JointParameterValue&, const JointParameterValue&) = default;
 };
 
+/// A number of an axis that differs from that of the robot's type.
+struct OwnJointNumber {
+    JointId joint;                 ///< in RobotType::joints
+    int axis = 0;                  ///< which of its axes, from 0
+    JointParameterValue number{};  ///< what it is
+    /// Compares all members.
+    friend bool operator==(const OwnJointNumber&, const OwnJointNumber&) = default;
+};
+
 /// Level 4: gives the robot own numbers of one axis of a joint; those that are not named stay. The two limits
 /// come together, and lie within those of the type, as all that knows how far the robot reaches goes by
 /// these.
@@ -90,14 +99,11 @@ Result<> check_joint_parameters(const std::string& robot, const RobotType& type,
 /// has the effort bound of its axis gets the new one, and any other at most that.
 void apply_joint_parameters(const RobotType& type, const SetJointParameters& order, RobotState& state);
 
-/// The axes of a type in the order of RobotState::motors: those of the tree, then those of loop joints.
-std::vector<Dof> axes_of(const RobotType& type);
+/// True if a state may have these own numbers: by joint, axis and parameter, each one that orders may give.
+bool may_own(const RobotType& type, std::span<const OwnJointNumber> own);
 
-/// True if a state may have these own numbers: none, or one for each axis of axes_of() that an order may have
-/// set.
-bool may_own(const RobotType& type, std::span<const Dof> own);
-
-/// Sets Dof::inverse_inertia of the tree's axes, the first of `own`, by their own rotor inertias.
-void renew_mobility(const RobotType& type, std::span<Dof> own);
+/// Gives the type these numbers. True: some are rotor inertias, so what follows from masses is to be computed
+/// anew.
+bool put_numbers(std::span<const OwnJointNumber> own, RobotType& type);
 
 }  // namespace roboss

@@ -54,6 +54,7 @@ class JointParameters : public testing::Test {
         return out;
     }
     const RobotType& type() const { return model->type_of(kArm); }
+    const RobotType& own() const { return type_of(type(), state); }
 
     std::shared_ptr<const Model> model;
     RobotState state;
@@ -116,17 +117,16 @@ TEST_F(JointParameters, ThatAJointOfItsKindHasNotAreRefused) {
 }
 
 TEST_F(JointParameters, OnlyWhatIsNamedChangesAndOnlyOnThatAxis) {
-    const std::vector<Dof> before = axes_of(type());
     give({JointId(1u), 0, false, {{kDamping, 0.5}, {kLower, -1}, {kUpper, 0.5}}});
     give({JointId(1u), 0, false, {{kFriction, 0.25}}});
-    ASSERT_EQ(state.own_dofs.size(), before.size());
-    std::vector<Dof> expected = before;
+    std::vector<Dof> expected = type().dofs;
     expected[1].damping = 0.5, expected[1].lower = -1, expected[1].upper = 0.5, expected[1].friction = 0.25;
-    EXPECT_EQ(state.own_dofs, expected);
-    EXPECT_EQ(&dof_of(type(), state, type().joints[1], 0), &state.own_dofs[1]);
+    EXPECT_EQ(own().dofs, expected);
+    EXPECT_EQ(&dof_of(type(), state, type().joints[1], 0), &own().dofs[1]);
     give({JointId(1u), 0, true, {{kFriction, 0.125}}});
-    expected = before, expected[1].friction = 0.125;
-    EXPECT_EQ(state.own_dofs, expected);
+    expected = type().dofs, expected[1].friction = 0.125;
+    EXPECT_EQ(own().dofs, expected);
+    EXPECT_EQ(state.own.joints, (std::vector<OwnJointNumber>{{JointId(1u), 0, {kFriction, 0.125}}}));
 }
 
 TEST_F(JointParameters, ThatAreThoseOfTheTypeAreNotKept) {
@@ -134,7 +134,7 @@ TEST_F(JointParameters, ThatAreThoseOfTheTypeAreNotKept) {
     give({JointId(1u), 0, false, {{kDamping, 0.5}}});
     EXPECT_NE(hash(), plain);
     give({JointId(1u), 0, true, {}});
-    EXPECT_TRUE(state.own_dofs.empty());
+    EXPECT_TRUE(state.own.empty());
     EXPECT_EQ(hash(), plain);
 }
 
@@ -153,18 +153,19 @@ TEST_F(JointParameters, ARotorInertiaChangesMobilitiesAsInAFile) {
     Diagnostics diagnostics;
     const auto other = compile(world, {}, diagnostics);
     give({JointId(2u), 0, false, {{kArmature, 0.3}}});
-    for (std::size_t d = 0; d < state.own_dofs.size(); ++d)
-        EXPECT_EQ(state.own_dofs[d].inverse_inertia, other->types[0].dofs[d].inverse_inertia) << d;
-    EXPECT_LT(state.own_dofs[2].inverse_inertia, type().dofs[2].inverse_inertia);
+    EXPECT_EQ(own().dofs, other->types[0].dofs);
+    for (std::size_t b = 0; b < type().bodies.size(); ++b)
+        EXPECT_EQ(own().bodies[b].inverse_mass_linear, other->types[0].bodies[b].inverse_mass_linear) << b;
+    EXPECT_LT(own().dofs[2].inverse_inertia, type().dofs[2].inverse_inertia);
     give({JointId(2u), 0, false, {{kArmature, 0}}});
-    EXPECT_TRUE(state.own_dofs.empty());
+    EXPECT_TRUE(state.own.empty());
 }
 
 TEST_F(JointParameters, TravelWithTheStateAndChangeItsHash) {
     const std::size_t plain = bytes().size();
     give({JointId(1u), 0, false, {{kDamping, 0.5}, {kMaxEffort, kInfinity}}});
     const std::vector<std::uint8_t> sent = bytes();
-    EXPECT_EQ(sent.size(), plain + 8 * (1 + 14 * type().motor_count()));
+    EXPECT_EQ(sent.size(), plain + 8 * (2 + 4 * state.own.joints.size()));
     const Result<RobotState> arrived = decode_state(sent, type());
     ASSERT_TRUE(arrived.ok()) << arrived.error().text();
     EXPECT_EQ(arrived.value(), state);
@@ -176,18 +177,20 @@ TEST_F(JointParameters, ThatNoOrderGivesAreRefusedInAState) {
     const RobotState good = state;
     const auto decodes = [&] { return decode_state(bytes(), type()).ok(); };
     EXPECT_TRUE(decodes());
-    for (double Dof::*member : {&Dof::damping, &Dof::friction, &Dof::armature, &Dof::position_gain,
-                                &Dof::limit_stiffness, &Dof::inverse_inertia})
-        for (const double wrong : {-1.0, kNan}) {
-            state = good, state.own_dofs[1].*member = wrong;
-            EXPECT_FALSE(decodes()) << wrong;
-        }
-    state = good, state.own_dofs[1].upper = 1.5;
-    EXPECT_FALSE(decodes()) << "wider than the type's";
-    state = good, state.own_dofs[1].lower = 0.9, state.own_dofs[1].upper = 0.8;
-    EXPECT_FALSE(decodes());
-    state = good, state.own_dofs.pop_back();
-    EXPECT_FALSE(decodes()) << "an axis is missing";
+    const auto refused = [&](std::vector<OwnJointNumber> joints) {
+        state = good, state.own.joints = std::move(joints);
+        return !decodes();
+    };
+    const JointId joint(1u);
+    for (const JointParameter p : {kDamping, kFriction, kArmature, kPositionGain, kLimitStiffness})
+        for (const double wrong : {-1.0, kNan}) EXPECT_TRUE(refused({{joint, 0, {p, wrong}}})) << wrong;
+    EXPECT_TRUE(refused({{joint, 0, {kUpper, 1.5}}})) << "wider than the type's";
+    EXPECT_TRUE(refused({{joint, 0, {kLower, 0.9}}, {joint, 0, {kUpper, 0.8}}}));
+    EXPECT_FALSE(refused({{joint, 0, {kUpper, 0.8}}}));
+    EXPECT_TRUE(refused({{joint, 1, {kDamping, 1}}})) << "it has one axis";
+    EXPECT_TRUE(refused({{JointId(99u), 0, {kDamping, 1}}}));
+    EXPECT_TRUE(refused({{joint, 0, {kFriction, 1}}, {joint, 0, {kDamping, 1}}})) << "not sorted";
+    EXPECT_TRUE(refused({{joint, 0, {JointParameter(kJointParameters), 1}}}));
 }
 
 }  // namespace

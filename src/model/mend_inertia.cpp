@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "math/inertia_checks.h"
 #include "model/compile_type.h"
 
 namespace roboss {
@@ -13,20 +14,6 @@ namespace {
 constexpr double kSmallMass = 1e-3;      // kg
 constexpr double kSmallRadius = 0.01;    // m
 constexpr double kSmallestShare = 1e-3;  // of the greatest moment
-/// Of the greatest moment: less is lost in rounding. The mass matrix is singular then, and the state soon not
-/// finite (seen below 1e-15).
-constexpr double kVanishingShare = 1e-12;
-
-bool positive_definite(const Mat3& m) {
-    const double minor2 = m(0, 0) * m(1, 1) - m(0, 1) * m(1, 0);
-    return m(0, 0) > 0 && minor2 > 0 && dot(m.r0, cross(m.r1, m.r2)) > 0;
-}
-
-/// About every axis there is more than what is lost in rounding.
-bool resists_every_turn(const Mat3& m) {
-    const double lost = kVanishingShare * std::max({m(0, 0), m(1, 1), m(2, 2), 0.0});
-    return positive_definite(m - Mat3::diagonal(lost, lost, lost));
-}
 
 /// No principal moment is below this (Gershgorin).
 double least_moment(const Mat3& m) {

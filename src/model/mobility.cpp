@@ -5,10 +5,8 @@
 #include <cmath>
 #include <vector>
 
-#include "core/float_env.h"
 #include "model/compile_type.h"
 #include "model/coordinates.h"
-#include "model/joint_parameters.h"
 #include "model/loop_closure.h"
 
 namespace roboss {
@@ -188,21 +186,6 @@ class Mobility {
 };
 
 }  // namespace
-
-void renew_mobility(const RobotType& type, std::span<Dof> own) {
-    const auto tree = own.first(type.dofs.size());
-    if (std::ranges::equal(tree, type.dofs, {}, &Dof::armature, &Dof::armature)) {
-        for (std::size_t d = 0; d < tree.size(); ++d) tree[d].inverse_inertia = type.dofs[d].inverse_inertia;
-        return;
-    }
-    const ExactFloatScope exact;
-    RobotType copy;  // of all that the mass matrix is made from
-    copy.free_base = type.free_base, copy.nq = type.nq, copy.nv = type.nv;
-    copy.bodies = type.bodies, copy.dof_parent = type.dof_parent, copy.paths = type.paths;
-    copy.dofs.assign(tree.begin(), tree.end());
-    compute_mobility(copy);
-    for (std::size_t d = 0; d < tree.size(); ++d) tree[d].inverse_inertia = copy.dofs[d].inverse_inertia;
-}
 
 void compute_mobility(RobotType& type) {
     Mobility(type).run();

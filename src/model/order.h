@@ -9,6 +9,7 @@
 
 #include "core/types.h"
 #include "model/joint_parameters.h"
+#include "model/link_parameters.h"
 #include "model/robot_state.h"
 
 namespace roboss {
@@ -117,7 +118,7 @@ struct Transmit {
 
 /// What an order does.
 using Action = std::variant<SetPose, SetVelocity, ApplyWrench, SetJoint, Command, Attach, Detach, Pull,
-                            SetJointState, Transmit, SetJointParameters>;
+                            SetJointState, Transmit, SetJointParameters, SetLinkParameters>;
 
 /// An action on one robot at one tick.
 struct Order {

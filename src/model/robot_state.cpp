@@ -10,8 +10,6 @@
 #include <type_traits>
 #include <utility>
 
-#include "model/joint_parameters.h"
-
 namespace roboss {
 
 RobotState initial_state(const Model& model, RobotId robot) {
@@ -59,6 +57,7 @@ class Teller {
     void number(double x) { word(std::bit_cast<std::uint64_t>(x)); }
     void tick(Tick t) { word(static_cast<std::uint64_t>(t)); }
     void id(std::uint32_t i) { word(i); }
+    void axis(int number) { word(static_cast<std::uint64_t>(number)); }
     void pair(std::uint32_t a, std::uint32_t b) { word(static_cast<std::uint64_t>(a) << 32 | b); }
     void flagged(std::uint32_t n, std::initializer_list<bool> flags) {
         std::uint32_t bits = 0, bit = 1;
@@ -108,6 +107,12 @@ class Reader {
         i = static_cast<std::uint32_t>(wide);
         if (i != wide) fail();
     }
+    void axis(int& number) {
+        std::uint32_t wide = 0;
+        id(wide);
+        number = static_cast<int>(wide & 0xFF);
+        if (wide > 0xFF) fail();
+    }
     void pair(std::uint32_t& a, std::uint32_t& b) {
         const std::uint64_t w = word();
         a = static_cast<std::uint32_t>(w >> 32), b = static_cast<std::uint32_t>(w);
@@ -136,6 +141,8 @@ class Reader {
     }
     void mode(MotorMode& m) { choose(m, MotorMode::kEffort); }
     void mode(BondPhase& p) { choose(p, BondPhase::kLoosed); }
+    void mode(JointParameter& p) { choose(p, static_cast<JointParameter>(kJointParameters - 1)); }
+    void mode(LinkParameter& p) { choose(p, static_cast<LinkParameter>(kLinkParameters - 1)); }
     template <class T>
     void length(std::vector<T>& list) {
         const std::uint64_t n = word();
@@ -233,16 +240,19 @@ void fields(A& a, Of<A, RadioState>& radio) {
     a.bytes(bytes);
 }
 
-/// Body and joint are those of the type.
 template <class A>
-void fields(A& a, Of<A, Dof>& dof) {
-    auto& [body, joint, lower, upper, max_effort, max_velocity, damping, friction, spring_stiffness,
-           spring_reference, armature, position_gain, velocity_gain, inverse_inertia, limit_stiffness,
-           limit_dissipation] = dof;
-    a.number(lower), a.number(upper), a.number(max_effort), a.number(max_velocity);
-    a.number(damping), a.number(friction), a.number(spring_stiffness), a.number(spring_reference);
-    a.number(armature), a.number(position_gain), a.number(velocity_gain), a.number(inverse_inertia);
-    a.number(limit_stiffness), a.number(limit_dissipation);
+void fields(A& a, Of<A, OwnNumbers>& own) {
+    auto& [joints, links] = own;
+    a.length(joints);
+    for (auto& [joint, axis, number] : joints) {
+        auto& [parameter, value] = number;
+        a.id(joint.value), a.axis(axis), a.mode(parameter), a.number(value);
+    }
+    a.length(links);
+    for (auto& [link, number] : links) {
+        auto& [parameter, value] = number;
+        a.id(link.value), a.mode(parameter), a.number(value);
+    }
 }
 
 /// What follows behind the rest of a state: what on-board controllers keep, pulls, radios, own numbers.
@@ -263,10 +273,10 @@ void fields(A& a, Of<A, Rest>& rest, Parts& parts) {
 
 template <class A>
 void fields(A& a, Of<A, RobotState>& state) {
-    auto& [q, v, motors, wrenches, contacts, rest, onboard, lists, surfaces, bonds, pulls, radios, own_dofs] =
-        state;
+    auto& [q, v, motors, wrenches, contacts, rest, onboard, lists, surfaces, bonds, pulls, radios, own,
+           own_type] = state;
     Parts parts{!onboard.empty() || !lists.empty() || !surfaces.empty() || !bonds.empty(), !pulls.empty(),
-                !radios.empty(), !own_dofs.empty()};
+                !radios.empty(), !own.empty()};
     a.length(q), a.length(v), a.length(motors), a.length(wrenches), a.length(contacts);
     for (auto& x : q) a.number(x);
     for (auto& x : v) a.number(x);
@@ -278,10 +288,9 @@ void fields(A& a, Of<A, RobotState>& state) {
     for (auto& pull : pulls) fields(a, pull);
     if (parts.talks) a.length(radios);
     for (auto& radio : radios) fields(a, radio);
-    if (parts.differs) a.length(own_dofs);
-    for (auto& dof : own_dofs) fields(a, dof);
+    if (parts.differs) fields(a, own);
     if constexpr (A::kReading)
-        if ((parts.talks && radios.empty()) || (parts.differs && own_dofs.empty())) a.fail();
+        if ((parts.talks && radios.empty()) || (parts.differs && own.empty())) a.fail();
     if (!parts.acts) return;
     a.length(onboard), a.length(lists), a.length(surfaces), a.length(bonds);
     for (auto& x : onboard) a.number(x);
@@ -307,13 +316,6 @@ bool is_consistent(const RadioState& radio, std::size_t robots) {
            bytes <= RadioState::kMostBytes;
 }
 
-/// Bodies and joints of own numbers, which do not travel.
-void take_places(const RobotType& type, std::vector<Dof>& own) {
-    const std::vector<Dof> axes = own.empty() ? std::vector<Dof>() : axes_of(type);
-    for (std::size_t i = 0; i < std::min(own.size(), axes.size()); ++i)
-        own[i].body = axes[i].body, own[i].joint = axes[i].joint;
-}
-
 /// What is wrong with a state of which every field was read; nullptr: nothing.
 const char* inconsistency_of(const RobotState& state, const RobotType& type, std::size_t robots) {
     if (state.q.size() != static_cast<std::size_t>(type.nq) ||
@@ -333,7 +335,8 @@ const char* inconsistency_of(const RobotState& state, const RobotType& type, std
         state.lists.size() != static_cast<std::size_t>(type.list_count))
         return "has not as many commands or as much memory of on-board controllers as that";
     if (state.radios.size() != type.radios.size()) return "has not as many radios as that";
-    if (!may_own(type, state.own_dofs)) return "has numbers of joints that no order gives";
+    if (!may_own(type, state.own.joints) || !may_own(type, state.own.links))
+        return "has numbers of joints or links that no order gives";
     const auto radio_fits = [&](const RadioState& r) { return is_consistent(r, robots); };
     if (!std::all_of(state.radios.begin(), state.radios.end(), radio_fits))
         return "has a radio whose transmissions do not fit each other";
@@ -396,10 +399,12 @@ Result<RobotState> decode_state(std::span<const std::uint8_t> bytes, const Robot
     Reader words(bytes);
     RobotState state;
     fields(words, state);
-    take_places(type, state.own_dofs);
     const char* wrong =
         words.complete() ? inconsistency_of(state, type, robots) : "is damaged, or bytes of it are missing";
-    if (wrong == nullptr) return state;
+    if (wrong == nullptr) {
+        state.own_type = OwnType(type, state.own);
+        return state;
+    }
     return Error{"a state of type '" + type.name + "' " + wrong,
                  "its bytes are damaged, or belong to another world or version; fetch or save it again"};
 }

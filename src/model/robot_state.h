@@ -9,6 +9,7 @@
 #include "core/hash.h"
 #include "core/types.h"
 #include "model/model.h"
+#include "model/own_numbers.h"
 
 namespace roboss {
 
@@ -167,26 +168,20 @@ struct RobotState {
     std::vector<Bond> bonds;         ///< attachments that this robot holds, in the order in which they came
     std::vector<TimedPull> pulls;    ///< in force, at most one on a link
     std::vector<RadioState> radios;  ///< by RobotType::radios
-    /// The robot's own numbers of all its axes, by `motors`, of which orders changed some; empty: those of
-    /// its type (model/joint_parameters.h). What a step reads comes from dofs_of() and dof_of().
-    std::vector<Dof> own_dofs;
+    OwnNumbers own;                  ///< numbers of joints and links that differ from those of its type
+    OwnType own_type;                ///< with `own`; a step has it from type_of()
     /// Compares all members.
     friend bool operator==(const RobotState&, const RobotState&) = default;
 };
 
-/// The axes of the tree's joints, by RobotType::dofs, with the robot's own numbers if it has some.
-inline std::span<const Dof> dofs_of(const RobotType& type, const RobotState& state) {
-    if (state.own_dofs.empty()) return type.dofs;
-    return std::span(state.own_dofs).first(type.dofs.size());
+/// The type of a robot, with its own numbers if it has some. `type`: that of the Model.
+inline const RobotType& type_of(const RobotType& type, const RobotState& state) {
+    const RobotType* own = state.own_type.get();
+    return own == nullptr ? type : *own;
 }
-/// Likewise the free direction `k` of a joint that closes a loop.
-inline const Dof& dof_of(const LoopJoint& loop, const RobotState& state, std::size_t k) {
-    if (state.own_dofs.empty()) return loop.dofs[k];
-    return state.own_dofs[static_cast<std::size_t>(loop.motor_index) + k];
-}
-/// Likewise axis `axis` of any joint.
+/// Likewise one axis of a joint.
 inline const Dof& dof_of(const RobotType& type, const RobotState& state, const Joint& joint, int axis) {
-    return state.own_dofs.empty() ? type.dof(joint, axis) : state.own_dofs[type.motor_index(joint, axis)];
+    return type_of(type, state).dof(joint, axis);
 }
 
 /// State of a robot at the start of the world.

@@ -59,16 +59,16 @@ struct WholeMass {
 
 WholeMass whole_mass(const Mat3& R_WL, OnboardContext& c) {
     WholeMass whole;
-    const std::vector<Link>& links = c.type().links;
+    const std::vector<Link>& links = c.type_of_file().links;  // it knows no payload
     for (std::size_t l = 0; l < links.size(); ++l) {
         whole.mass += links[l].mass;
-        whole.centre += c.centre(LinkId(l)) * links[l].mass;
+        whole.centre += c.centre_of_file(LinkId(l)) * links[l].mass;
     }
     whole.centre = whole.centre * (1 / whole.mass);
     for (std::size_t l = 0; l < links.size(); ++l) {
         const Link& link = links[l];
         const Mat3 R_LB = transpose(R_WL) * (c.pose(LinkId(l)).R * transpose(link.X_BL.R));
-        const Vec3 r = transpose_times(R_WL, c.centre(LinkId(l)) - whole.centre);
+        const Vec3 r = transpose_times(R_WL, c.centre_of_file(LinkId(l)) - whole.centre);
         const double rr = dot(r, r) * link.mass;
         whole.inertia = whole.inertia + R_LB * link.inertia_C * transpose(R_LB);
         const Vec3 m = r * link.mass;

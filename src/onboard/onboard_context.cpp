@@ -125,8 +125,8 @@ Vec3 OnboardContext::wind() const {
     return {state_.onboard[at], state_.onboard[at + 1], state_.onboard[at + 2]};
 }
 
-Vec3 OnboardContext::centre(LinkId link) {
-    const Link& l = type_.links[link.index()];
+Vec3 OnboardContext::centre(const RobotType& type, LinkId link) {
+    const Link& l = type.links[link.index()];
     return body_pose(l.body) * l.p_BC;
 }
 

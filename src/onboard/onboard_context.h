@@ -27,7 +27,7 @@ class OnboardContext {
         : model_(model),
           tick_(tick),
           robot_(robot),
-          type_(model.type_of(robot)),
+          type_(type_of(model.type_of(robot), state)),
           state_(state),
           scratch_(scratch) {}
     /// The controller that runs next.
@@ -39,7 +39,9 @@ class OnboardContext {
     Tick tick() const { return tick_; }
     double time() const { return static_cast<double>(tick_) * model_.dt_s; }  ///< s
     RobotId robot() const { return robot_; }
-    const RobotType& type() const { return type_; }
+    const RobotType& type() const { return type_; }  ///< with the robot's own numbers
+    /// As the file has it: what the makers of a controller know.
+    const RobotType& type_of_file() const { return model_.type_of(robot_); }
     const OnboardInfo& info() const { return *info_; }
     RobotState& state() { return state_; }
 
@@ -79,7 +81,7 @@ class OnboardContext {
         return state_.v[static_cast<std::size_t>(info_->axes[joint].v_index)];
     }
     const Dof& dof(std::size_t joint) const {
-        return dofs_of(type_, state_)[static_cast<std::size_t>(info_->axes[joint].motor_index)];
+        return type_.dofs[static_cast<std::size_t>(info_->axes[joint].motor_index)];
     }
     /// Latches a setpoint of the joint's motor: its target in rad/s, rad, N m (or m/s, m, N). The motor's
     /// bound is the joint's own, or `max_effort` if that is smaller.
@@ -104,7 +106,9 @@ class OnboardContext {
     Transform pose(LinkId link);
     LinkTwist twist(LinkId link);
     /// Centre of mass of the link in the world, m.
-    Vec3 centre(LinkId link);
+    Vec3 centre(LinkId link) { return centre(type_, link); }
+    /// The same where type_of_file() has it.
+    Vec3 centre_of_file(LinkId link) { return centre(type_of_file(), link); }
     /// Pushes the link during this tick: force in N at its centre of mass, torque in N m, world axes.
     void push(LinkId link, const Vec3& force, const Vec3& torque);
     /// The same with the force at a point p_W, m.
@@ -124,6 +128,7 @@ class OnboardContext {
         return type_.channels[static_cast<std::size_t>(info_->channels[k])];
     }
     void place_bodies();
+    Vec3 centre(const RobotType& type, LinkId link);
     const Transform& body_pose(int body);
 
     const Model& model_;

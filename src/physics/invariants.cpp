@@ -39,7 +39,7 @@ class StateCheck {
 
     std::string check(RobotId robot) {
         const RobotState& state = states_[robot.index()];
-        const RobotType& type = model_.type_of(robot);
+        const RobotType& type = type_in_use(robot);
         for (const auto part : {&StateCheck::check_coordinates, &StateCheck::check_mass_matrix,
                                 &StateCheck::check_impulses, &StateCheck::check_rest})
             if (std::string wrong = (this->*part)(robot, type, state); !wrong.empty())
@@ -48,6 +48,10 @@ class StateCheck {
     }
 
   private:
+    const RobotType& type_in_use(RobotId robot) const {
+        return type_of(model_.type_of(robot), states_[robot.index()]);
+    }
+
     std::string check_coordinates(RobotId, const RobotType& type, const RobotState& state) {
         if (state.q.size() != static_cast<std::size_t>(type.nq) ||
             state.v.size() != static_cast<std::size_t>(type.nv) || state.motors.size() != type.motor_count())
@@ -100,7 +104,7 @@ class StateCheck {
         const Material& b =
             contact.other_robot == RobotId::kNone
                 ? model_.statics[contact.other_shape].material
-                : model_.type_of(RobotId(contact.other_robot)).shapes[contact.other_shape].material;
+                : type_in_use(RobotId(contact.other_robot)).shapes[contact.other_shape].material;
         return std::max(std::min(a.mu, b.mu), std::min(a.mu2, b.mu2));
     }
 

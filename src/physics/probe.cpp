@@ -165,8 +165,8 @@ void StepProbe::note_bonds(RobotId holder) {
 
 std::vector<JointReaction> StepProbe::joint_reactions(RobotId robot) const {
     const ExactFloatScope exact;
-    const RobotType& type = model_.type_of(robot);
     RobotState state = before_[robot.index()];
+    const RobotType& type = type_of(model_.type_of(robot), state);
     const std::vector<double>& v_after = after_[robot.index()].v;
     std::vector<double> rate(state.v.size());
     for (std::size_t i = 0; i < rate.size(); ++i) {

@@ -19,7 +19,7 @@ constexpr std::size_t kBlock = 32;  // robots that a thread of a team takes at a
 void place(const Model& model, RobotId id, RobotState& state, RobotWork& work) {
     if (!state.rest.asleep) return place_robot(model, id, state, work);
     work.id = id;
-    work.take(model.type_of(id), state);
+    work.take(type_of(model.type_of(id), state), state);
     work.contacts = 0;
     work.touches_robot = work.pushed = work.held = work.bonded = work.placed = false;
     work.asleep = true;

@@ -139,7 +139,7 @@ bool moves_slowly(const RobotWork& work) {
 bool joints_rest(const RobotWork& work) {
     const RobotType& type = *work.type;
     double fastest = 0;
-    const std::span<const Dof> dofs = work.dofs();
+    const std::span<const Dof> dofs = work.type->dofs;
     for (std::size_t d = 0; d < dofs.size(); ++d) {
         const Body& body = type.bodies[static_cast<std::size_t>(dofs[d].body)];
         const double v = work.state->v[d + static_cast<std::size_t>(type.base_nv())];

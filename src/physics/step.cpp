@@ -105,7 +105,7 @@ void check_input(const Model& model, Tick tick, std::span<const RobotId> robots,
         ROBOSS_CHECK(states[i]->q.size() == static_cast<std::size_t>(type.nq) &&
                          states[i]->v.size() == static_cast<std::size_t>(type.nv) &&
                          states[i]->motors.size() == type.motor_count() &&
-                         (states[i]->own_dofs.empty() || states[i]->own_dofs.size() == type.motor_count()) &&
+                         states[i]->own.empty() == (states[i]->own_type.get() == nullptr) &&
                          states[i]->onboard.size() == static_cast<std::size_t>(type.onboard_size),
                      "the state of robot " + std::to_string(robots[i].value));
     }

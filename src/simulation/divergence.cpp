@@ -69,9 +69,9 @@ bool describe(const Model& model, const States& a, const States& b, Divergence& 
 }
 
 std::string describe(const Model& model, const Order& order) {
-    static constexpr const char* kKinds[] = {"set pose",    "set velocity", "wrench",          "joint",
-                                             "command",     "attach",       "detach",          "pull",
-                                             "joint state", "message",      "joint parameters"};
+    static constexpr const char* kKinds[] = {
+        "set pose", "set velocity", "wrench",      "joint",   "command",          "attach",
+        "detach",   "pull",         "joint state", "message", "joint parameters", "link parameters"};
     static_assert(std::size(kKinds) == std::variant_size_v<Action>);
     std::string text = std::string(kKinds[order.action.index()]) + " of robot '" +
                        model.robots[order.robot.index()].name + "'";
@@ -83,6 +83,11 @@ std::string describe(const Model& model, const Order& order) {
     if (const auto* own = std::get_if<SetJointParameters>(&order.action)) {
         text += ", joint '" + model.type_of(order.robot).joints[own->joint.index()].name + "'";
         for (const JointParameterValue& one : own->values)
+            text += std::string(", ") + info_of(one.parameter).name + " " + std::to_string(one.value);
+    }
+    if (const auto* own = std::get_if<SetLinkParameters>(&order.action)) {
+        text += ", link '" + model.type_of(order.robot).links[own->link.index()].name + "'";
+        for (const LinkParameterValue& one : own->values)
             text += std::string(", ") + info_of(one.parameter).name + " " + std::to_string(one.value);
     }
     if (const auto* message = std::get_if<Transmit>(&order.action))

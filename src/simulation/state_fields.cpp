@@ -93,16 +93,28 @@ void compare_orders(const RobotState& a, const RobotState& b, Fields& fields) {
     }
 }
 
-void compare_own_numbers(const RobotType& type, const RobotState& a, const RobotState& b, Fields& fields) {
-    fields.count("number of joint axes with numbers of the robot's own", a.own_dofs.size(),
-                 b.own_dofs.size());
-    for (std::size_t i = 0; i < a.own_dofs.size() && !fields.done(); ++i) {
-        const Dof &x = a.own_dofs[i], &y = b.own_dofs[i];
+void compare_own_numbers(const RobotType& type, const OwnNumbers& a, const OwnNumbers& b, Fields& fields) {
+    fields.count("number of own numbers of joints", a.joints.size(), b.joints.size());
+    for (std::size_t i = 0; i < a.joints.size() && !fields.done(); ++i) {
+        const OwnJointNumber &x = a.joints[i], &y = b.joints[i];
+        const std::string name = "axis " + std::to_string(x.axis) + " of joint '" +
+                                 type.joints[x.joint.index()].name + "', " + info_of(x.number.parameter).name;
+        fields.count(name + ", or of which joint", x.joint.value, y.joint.value);
+        fields.count(name + ", or of which axis", static_cast<std::uint64_t>(x.axis),
+                     static_cast<std::uint64_t>(y.axis));
+        fields.count(name + ", or which number", static_cast<std::uint64_t>(x.number.parameter),
+                     static_cast<std::uint64_t>(y.number.parameter));
+        fields.number(name, x.number.value, y.number.value);
+    }
+    fields.count("number of own numbers of links", a.links.size(), b.links.size());
+    for (std::size_t i = 0; i < a.links.size() && !fields.done(); ++i) {
+        const OwnLinkNumber &x = a.links[i], &y = b.links[i];
         const std::string name =
-            "axis " + std::to_string(i) + " of joint '" + type.joints[x.joint.index()].name + "', ";
-        for (const JointParameterInfo& row : joint_parameters())
-            fields.number(name + row.name, x.*row.member, y.*row.member);
-        fields.number(name + "mobility", x.inverse_inertia, y.inverse_inertia);
+            "link '" + type.links[x.link.index()].name + "', " + info_of(x.number.parameter).name;
+        fields.count(name + ", or of which link", x.link.value, y.link.value);
+        fields.count(name + ", or which number", static_cast<std::uint64_t>(x.number.parameter),
+                     static_cast<std::uint64_t>(y.number.parameter));
+        fields.number(name, x.number.value, y.number.value);
     }
 }
 
@@ -205,7 +217,7 @@ std::optional<FieldDifference> first_difference(const RobotType& type, const Rob
     if (fields.done()) return fields.take();
     compare_coordinates(type, a, b, fields);
     compare_orders(a, b, fields);
-    if (!fields.done()) compare_own_numbers(type, a, b, fields);
+    if (!fields.done()) compare_own_numbers(type, a.own, b.own, fields);
     compare_pulls(a, b, fields);
     compare_radios(a, b, fields);
     compare_contacts(a, b, fields);

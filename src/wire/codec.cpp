@@ -159,6 +159,12 @@ template <class A> void field(A& a, Of<A, JointParameterValue>& m) {
     if constexpr (A::kReading) if (static_cast<std::size_t>(parameter) >= kJointParameters) a.fail("a parameter of a joint is unknown");
 }
 template <class A> void field(A& a, Of<A, SetJointParameters>& m) { auto& [joint, axis, reset, values] = m; fields(a, joint, axis, reset, values); }
+template <class A> void field(A& a, Of<A, LinkParameterValue>& m) {
+    auto& [parameter, value] = m;
+    fields(a, parameter, value);
+    if constexpr (A::kReading) if (static_cast<std::size_t>(parameter) >= kLinkParameters) a.fail("a parameter of a link is unknown");
+}
+template <class A> void field(A& a, Of<A, SetLinkParameters>& m) { auto& [link, reset, values] = m; fields(a, link, reset, values); }
 template <class A> void field(A& a, Of<A, Order>& m) { auto& [apply_at, client, sequence, robot, action] = m; fields(a, apply_at, client, sequence, robot, action); }
 template <class A> void field(A& a, Of<A, Hello>& m) { auto& [model_hash, threads, name] = m; fields(a, model_hash, threads, name); }
 template <class A> void field(A& a, Of<A, Welcome>& m) { auto& [simulator] = m; fields(a, simulator); }

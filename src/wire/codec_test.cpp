@@ -15,19 +15,22 @@ namespace {
 const RobotId kRobot(7u), kOther(9u);
 
 std::vector<Order> some_orders() {
-    return {{10, ClientId(1u), 1, kRobot, SetPose{{{1, 2, 3}, {0.5, 0.5, 0.5, 0.5}}}},
-            {10, ClientId(1u), 2, kRobot, SetVelocity{{1, 0, 0}, {0, 0, -2}}},
-            {11, ClientId(2u), 1, kOther, ApplyWrench{LinkId(2u), {1, 2, 3}, {4, 5, 6}, 12, true}},
-            {12, ClientId(2u), 2, kOther, SetJoint{JointId(1u), 1, MotorMode::kPosition, 0.25, 8.5}},
-            {13, ClientId(2u), 3, kRobot, Command{2, {0.5, -1, 3}}},
-            {14, ClientId(2u), 4, kRobot, Attach{LinkId(1u), kOther, LinkId(3u), 0.25, 40, 2}},
-            {15, ClientId(2u), 5, kRobot, Detach{kOther}},
-            {16, ClientId(2u), 6, kRobot, Pull{LinkId(1u), {1, 2, 3}, {4, 5, 6}, 7, 8, 9}},
-            {17, ClientId(2u), 7, kOther, SetJointState{JointId(1u), {0.25}, {-1, 2, 3}}},
-            {17, ClientId(2u), 8, kOther,
-             SetJointParameters{
-                 JointId(1u), 1, true, {{JointParameter::kDamping, 0.5}, {JointParameter::kUpper, 2}}}},
-            {18, ClientId(2u), 8, kOther, Transmit{3, kRobot, {1, 0, 255}}}};
+    return {
+        {10, ClientId(1u), 1, kRobot, SetPose{{{1, 2, 3}, {0.5, 0.5, 0.5, 0.5}}}},
+        {10, ClientId(1u), 2, kRobot, SetVelocity{{1, 0, 0}, {0, 0, -2}}},
+        {11, ClientId(2u), 1, kOther, ApplyWrench{LinkId(2u), {1, 2, 3}, {4, 5, 6}, 12, true}},
+        {12, ClientId(2u), 2, kOther, SetJoint{JointId(1u), 1, MotorMode::kPosition, 0.25, 8.5}},
+        {13, ClientId(2u), 3, kRobot, Command{2, {0.5, -1, 3}}},
+        {14, ClientId(2u), 4, kRobot, Attach{LinkId(1u), kOther, LinkId(3u), 0.25, 40, 2}},
+        {15, ClientId(2u), 5, kRobot, Detach{kOther}},
+        {16, ClientId(2u), 6, kRobot, Pull{LinkId(1u), {1, 2, 3}, {4, 5, 6}, 7, 8, 9}},
+        {17, ClientId(2u), 7, kOther, SetJointState{JointId(1u), {0.25}, {-1, 2, 3}}},
+        {17, ClientId(2u), 8, kOther,
+         SetJointParameters{
+             JointId(1u), 1, true, {{JointParameter::kDamping, 0.5}, {JointParameter::kUpper, 2}}}},
+        {17, ClientId(2u), 9, kOther,
+         SetLinkParameters{LinkId(1u), true, {{LinkParameter::kMass, 0.5}, {LinkParameter::kFriction, 2}}}},
+        {18, ClientId(2u), 8, kOther, Transmit{3, kRobot, {1, 0, 255}}}};
 }
 
 StepProfile a_profile() {

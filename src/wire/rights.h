@@ -19,7 +19,7 @@ enum class OrderKind : std::uint8_t {
     kPose,       ///< SetPose, SetJointState
     kVelocity,   ///< SetVelocity
     kForce,      ///< ApplyWrench, Pull
-    kActuators,  ///< SetJoint, Command, SetJointParameters
+    kActuators,  ///< SetJoint, Command, SetJointParameters, SetLinkParameters
     kBonds,      ///< Attach, Detach
     kRadio,      ///< Transmit
 };

@@ -30,7 +30,8 @@ std::vector<std::pair<OrderKind, Action>> every_action(RobotId other) {
             {OrderKind::kBonds, Attach{LinkId(0u), other, LinkId(0u)}},
             {OrderKind::kBonds, Detach{other}},
             {OrderKind::kRadio, Transmit{}},
-            {OrderKind::kActuators, SetJointParameters{}}};
+            {OrderKind::kActuators, SetJointParameters{}},
+            {OrderKind::kActuators, SetLinkParameters{}}};
 }
 
 class ClientRights : public testing::Test {

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <set>
 
+#include "math/inertia_checks.h"
 #include "world/joint_type.h"
 #include "world/world.h"
 
@@ -17,21 +18,6 @@ std::string text(double value) {
         result = buffer;
     }
     return result;
-}
-
-bool positive_definite(const Mat3& m) {
-    const double minor2 = m(0, 0) * m(1, 1) - m(0, 1) * m(1, 0);
-    const double determinant = dot(m.r0, cross(m.r1, m.r2));
-    return m(0, 0) > 0 && minor2 > 0 && determinant > 0;
-}
-
-/// Half the trace minus the inertia is the matrix of second moments of mass; a real body's is never negative.
-bool obeys_triangle_inequality(const Mat3& inertia) {
-    const double trace = inertia(0, 0) + inertia(1, 1) + inertia(2, 2);
-    // A thin plate lies on the border; files round to few digits.
-    const double slack = 1e-3 * trace;
-    const double half = 0.5 * trace + slack;
-    return positive_definite(Mat3::diagonal(half, half, half) - inertia);
 }
 
 std::string numbers(const Mat3& i) {

@@ -48,6 +48,22 @@ class RandomProgram : public ControlProgram {
         return client.set_joint_parameters(robot, joint, std::move(values));
     }
 
+    /// Own numbers of a link, some of which no robot may have, or those of its type.
+    static Result<> give_link_parameters(Client& client, RobotId robot, LinkId link, Random& random) {
+        if (random.integer(0, 5) == 0) return client.reset_link_parameters(robot, link);
+        std::vector<LinkParameterValue> values;
+        for (const LinkParameter parameter :
+             {LinkParameter::kMass, LinkParameter::kCentreX, LinkParameter::kCentreZ,
+              LinkParameter::kFriction, LinkParameter::kRestitution, LinkParameter::kTorsionalFriction}) {
+            if (random.integer(0, 2) > 0) continue;
+            const double now = client.link_parameter(robot, link, parameter).value_or(1);
+            const double share =
+                parameter == LinkParameter::kMass ? now * random.uniform(0.3, 3) : random.uniform(-0.05, 0.4);
+            values.push_back({parameter, share});
+        }
+        return client.set_link_parameters(robot, link, std::move(values));
+    }
+
     Result<> give_order(Client& client, RobotId robot, Random& random) {
         const RobotType& type = client.model().type_of(robot);
         const RobotState& state = client.state(robot);
@@ -60,6 +76,11 @@ class RandomProgram : public ControlProgram {
             if (pick > 12) return give_parameters(client, robot, joint, random);
             return client.set_joint(robot, joint, MotorMode::kVelocity, random.uniform(-8, 8) + pull, 5);
         }
+        if (pick == 6)
+            return give_link_parameters(
+                client, robot,
+                LinkId(static_cast<std::size_t>(random.integer(0, static_cast<int>(type.links.size()) - 1))),
+                random);
         if (pick < 9)
             return client.apply_wrench(robot, LinkId(std::size_t{0}), random.vector(5) + Vec3{pull, 0, 0}, {},
                                        0.02);

@@ -99,8 +99,8 @@ Action parse_velocity(const json& o) {
     return SetVelocity{vector(o, "linear"), vector(o, "angular")};
 }
 
-LinkId named_link(const json& o, const RobotType& type, const std::string& robot) {
-    const std::string name = text(o, "link");
+LinkId named_link(const json& o, const char* key, const RobotType& type, const std::string& robot) {
+    const std::string name = text(o, key);
     if (const auto link = type.find_link(name)) return *link;
     throw LineFault("robot '" + robot + "' has no link '" + name + "'",
                     "its first link is '" + type.links.front().name + "'");
@@ -116,14 +116,14 @@ Tick ticks_of(const json& o, const Model& model) {
 
 Action parse_wrench(const json& o, const Model& model, const RobotType& type, const std::string& robot) {
     only_keys(o, "wrench", {"link", "force", "torque", "duration", "replaces"});
-    return ApplyWrench{named_link(o, type, robot), vector(o, "force"), vector(o, "torque"),
+    return ApplyWrench{named_link(o, "link", type, robot), vector(o, "force"), vector(o, "torque"),
                        ticks_of(o, model), o.contains("replaces") && o["replaces"] == true};
 }
 
 Action parse_pull(const json& o, const Model& model, const RobotType& type, const std::string& robot) {
     only_keys(o, "pull", {"link", "point", "target", "rate", "max_force", "duration"});
     Pull pull;
-    pull.link = named_link(o, type, robot);
+    pull.link = named_link(o, "link", type, robot);
     pull.p_L = vector(o, "point"), pull.target_W = vector(o, "target");
     if (o.contains("rate")) pull.rate = number(o, "rate");
     pull.max_force = number(o, "max_force");
@@ -208,6 +208,25 @@ Action parse_joint_parameters(const json& o, const RobotType& type, const std::s
     return order;
 }
 
+Action parse_link_parameters(const json& o, const RobotType& type, const std::string& robot) {
+    if (!o.is_object()) throw LineFault("link_parameters is not a JSON object", "write {\"...\": ...}");
+    SetLinkParameters order;
+    order.link = named_link(o, "name", type, robot);
+    for (const auto& [key, value] : o.items()) {
+        if (key == "name") continue;
+        if (key == "reset") {
+            if (!value.is_boolean()) throw LineFault("'reset' is not true or false", "write true");
+            order.reset = value.get<bool>();
+        } else if (const auto parameter = find_link_parameter(key)) {
+            order.values.push_back({*parameter, number(o, key.c_str())});
+        } else {
+            throw LineFault("'" + key + "' is not a key of link_parameters",
+                            "known keys: name, reset, " + link_parameter_names());
+        }
+    }
+    return order;
+}
+
 /// For a command that the robot does not take.
 std::string remedy_for(const std::string& command, const RobotType& type) {
     std::string all;
@@ -286,12 +305,7 @@ RobotId other_robot(const json& o, const char* key, const Model& model) {
 
 /// The named link, or the first one.
 LinkId link_of(const json& o, const char* key, const RobotType& type, const std::string& robot) {
-    if (!o.contains(key)) return LinkId(std::size_t{0});
-    const auto link = type.find_link(text(o, key));
-    if (!link)
-        throw LineFault("robot '" + robot + "' has no link '" + text(o, key) + "'",
-                        "its first link is '" + type.links.front().name + "'");
-    return *link;
+    return o.contains(key) ? named_link(o, key, type, robot) : LinkId(std::size_t{0});
 }
 
 Action parse_attach(const json& o, const Model& model, const RobotType& type, const std::string& robot) {
@@ -408,6 +422,7 @@ Action parse_action(const json& o, const Model& model, RobotId id) {
     if (o.contains("joint")) return parse_joint(o["joint"], type, robot);
     if (o.contains("joint_state")) return parse_joint_state(o["joint_state"], type, robot);
     if (o.contains("joint_parameters")) return parse_joint_parameters(o["joint_parameters"], type, robot);
+    if (o.contains("link_parameters")) return parse_link_parameters(o["link_parameters"], type, robot);
     if (o.contains("command")) return parse_command(o["command"], type, robot);
     if (o.contains("attach")) return parse_attach(o["attach"], model, type, robot);
     if (o.contains("detach")) return parse_detach(o["detach"], model);
@@ -431,14 +446,15 @@ void take(Order order, const Model& model, std::vector<Order>& orders, LineFault
 void parse_order(const json& o, const Model& model, std::vector<Order>& orders, LineFaults& faults) {
     only_keys(o, "an order",
               {"t", "robot", "set_pose", "set_velocity", "wrench", "joint", "joint_state", "joint_parameters",
-               "command", "attach", "detach", "pull", "transmit"});
+               "link_parameters", "command", "attach", "detach", "pull", "transmit"});
     const Tick tick = tick_of(o, model);
     const std::vector<RobotId> robots = robots_of(o, "robot", model);
     const int actions = static_cast<int>(o.size()) - 2;
     if (actions != 1)
         throw LineFault("the order has " + std::to_string(actions) + " actions",
                         "name one of set_pose, set_velocity, wrench, pull, joint, joint_state, "
-                        "joint_parameters, command, attach, detach, transmit, or publish without a robot");
+                        "joint_parameters, link_parameters, command, attach, detach, transmit, or publish "
+                        "without a robot");
     for (const RobotId robot : robots) {
         Order order;
         order.apply_at = tick;
@@ -467,94 +483,7 @@ std::vector<Order> parse_line(const std::string& line, const Model& model, LineF
     return orders;
 }
 
-json list(const Vec3& v) {
-    return {v.x, v.y, v.z};
-}
-
-/// The action as the value of its key.
-struct ActionToJson {
-    const Model& model;
-    const RobotType& type;
-    nlohmann::ordered_json& line;
-
-    void operator()(const SetPose& a) const {
-        line["set_pose"] = {{"position", list(a.X_WR.p)},
-                            {"quat_wxyz", {a.X_WR.q.w, a.X_WR.q.x, a.X_WR.q.y, a.X_WR.q.z}}};
-    }
-    void operator()(const SetVelocity& a) const {
-        line["set_velocity"] = {{"linear", list(a.linear)}, {"angular", list(a.angular)}};
-    }
-    void operator()(const ApplyWrench& a) const {
-        line["wrench"] = {{"link", type.links[a.link.index()].name},
-                          {"force", list(a.force)},
-                          {"torque", list(a.torque)},
-                          {"duration", static_cast<double>(a.duration) * model.dt_s}};
-        if (a.replaces) line["wrench"]["replaces"] = true;
-    }
-    void operator()(const Pull& a) const {
-        line["pull"] = {{"link", type.links[a.link.index()].name},
-                        {"point", list(a.p_L)},
-                        {"target", list(a.target_W)},
-                        {"rate", a.rate},
-                        {"max_force", a.max_force},
-                        {"duration", static_cast<double>(a.duration) * model.dt_s}};
-    }
-    void operator()(const SetJoint& a) const {
-        static constexpr const char* kModes[] = {"effort", "velocity", "position", "effort"};
-        nlohmann::ordered_json joint{{"name", type.joints[a.joint.index()].name}};
-        if (a.axis != 0) joint["axis"] = a.axis;
-        const bool passive =
-            a.mode == MotorMode::kPassive;  // not expressible in a line: an effort of 0 does the same
-        joint[kModes[static_cast<std::size_t>(a.mode)]] = passive ? 0.0 : a.target;
-        if (a.max_effort >= 0 && std::isfinite(a.max_effort)) joint["max_effort"] = a.max_effort;
-        line["joint"] = joint;
-    }
-    void operator()(const SetJointState& a) const {
-        nlohmann::ordered_json state{{"name", type.joints[a.joint.index()].name}};
-        if (!a.position.empty()) state["position"] = a.position;
-        if (!a.velocity.empty()) state["velocity"] = a.velocity;
-        line["joint_state"] = state;
-    }
-    void operator()(const SetJointParameters& a) const {
-        nlohmann::ordered_json numbers{{"name", type.joints[a.joint.index()].name}};
-        if (a.axis != 0) numbers["axis"] = a.axis;
-        if (a.reset) numbers["reset"] = true;
-        for (const JointParameterValue& one : a.values)
-            numbers[info_of(one.parameter).name] =
-                std::isfinite(one.value) ? nlohmann::ordered_json(one.value) : nlohmann::ordered_json();
-        line["joint_parameters"] = numbers;
-    }
-    void operator()(const Command& a) const {
-        line["command"] = {{"name", type.channels[a.channel].channel.name}, {"values", a.values}};
-    }
-    void operator()(const Attach& a) const {
-        nlohmann::ordered_json attach{{"link", type.links[a.link.index()].name},
-                                      {"robot", model.robots[a.other.index()].name},
-                                      {"robot_link", model.type_of(a.other).links[a.other_link.index()].name},
-                                      {"reach", a.reach}};
-        if (std::isfinite(a.max_force)) attach["max_force"] = a.max_force;
-        if (std::isfinite(a.max_torque)) attach["max_torque"] = a.max_torque;
-        line["attach"] = attach;
-    }
-    void operator()(const Transmit& a) const {
-        line["transmit"] = {{"radio", type.sensors[type.radios[a.radio]].spec.name},
-                            {"hex", hexadecimal(a.payload)}};
-        if (a.to.valid()) line["transmit"]["to"] = model.robots[a.to.index()].name;
-    }
-    void operator()(const Detach& a) const {
-        line["detach"] = nlohmann::ordered_json::object();
-        if (a.other.valid()) line["detach"]["robot"] = model.robots[a.other.index()].name;
-    }
-};
-
 }  // namespace
-
-std::string order_line(const Order& order, const Model& model) {
-    nlohmann::ordered_json line{{"t", static_cast<double>(order.apply_at) * model.dt_s},
-                                {"robot", model.robots[order.robot.index()].name}};
-    std::visit(ActionToJson{model, model.type_of(order.robot), line}, order.action);
-    return line.dump(-1, ' ', false, json::error_handler_t::replace);
-}
 
 Tick tick_at(double time_s, double dt_s) {
     return static_cast<Tick>(std::floor(time_s / dt_s + 0.5));

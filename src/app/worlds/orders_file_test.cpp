@@ -204,6 +204,46 @@ TEST(OrdersFile, ParametersOfJointsThatCannotBeSetAreNamedWithTheirLine) {
     }
 }
 
+TEST(OrdersFile, ParametersOfLinksAreReadAndWrittenAlike) {
+    const auto model = cart_model();
+    Diagnostics d;
+    const std::string link = model->types[0].links[0].name;
+    const auto orders = parse_orders(R"({"t":0.5,"robot":"cart","link_parameters":{"name":")" + link +
+                                         R"(","mass":2.5,"centre_x":-0.125}})"
+                                         "\n"
+                                         R"({"t":1,"robot":"cart","link_parameters":{"name":")" +
+                                         link + R"(","reset":true}})",
+                                     "f.jsonl", *model, d);
+    ASSERT_TRUE(d.items().empty()) << to_text(d.items()[0]);
+    ASSERT_EQ(orders.size(), 2u);
+    EXPECT_EQ(orders[0].action,
+              Action(SetLinkParameters{
+                  LinkId(0u), false, {{LinkParameter::kMass, 2.5}, {LinkParameter::kCentreX, -0.125}}}));
+    EXPECT_EQ(orders[1].action, Action(SetLinkParameters{LinkId(0u), true, {}}));
+    for (const Order& order : orders) {
+        const auto again = parse_orders(order_line(order, *model), "g.jsonl", *model, d);
+        ASSERT_EQ(again.size(), 1u);
+        // The keys of a line are sorted by their names.
+        EXPECT_EQ(again[0].action.index(), order.action.index());
+        EXPECT_EQ(order_line(again[0], *model), order_line(order, *model));
+    }
+}
+
+TEST(OrdersFile, ParametersOfLinksThatCannotBeSetAreNamedWithTheirLine) {
+    const std::string link = cart_model()->types[0].links[0].name;
+    for (const std::string& numbers :
+         {std::string(R"("name":"glide","mass":1)"), R"("name":")" + link + R"(","damping":1)",
+          R"("name":")" + link + R"(","mass":0)", R"("name":")" + link + R"(","mass":null)",
+          R"("name":")" + link + R"(","inertia_xx":1)", R"("name":")" + link + R"(","reset":1)",
+          R"("name":")" + link + R"(")", std::string(R"("mass":1)")}) {
+        Diagnostics d;
+        const std::string line = R"({"t":1,"robot":"cart","link_parameters":{)" + numbers + "}}";
+        EXPECT_TRUE(parse_orders(line, "f.jsonl", *cart_model(), d).empty()) << line;
+        ASSERT_EQ(d.items().size(), 1u) << line;
+        EXPECT_EQ(d.items()[0].where.line, 1);
+    }
+}
+
 TEST(OrdersFile, StatesOfJointsThatCannotBeSetAreNamedWithTheirLine) {
     for (const char* line : {R"({"t":1,"robot":"cart","joint_state":{"name":"glide","position":1}})",
                              R"({"t":1,"robot":"cart","joint_state":{"name":"slide","position":[1,2]}})",

@@ -390,7 +390,7 @@ void remember_joints(const Model& model, const RobotWork& robot, std::span<const
     const RobotType& type = *robot.type;
     std::vector<MotorSetpoint>& motors = robot.state->motors;
     const auto is_hard = [&](std::size_t d) {
-        const JointStates<double> states{robot.state->q, robot.state->v, motors, robot.dofs()};
+        const JointStates<double> states{robot.state->q, robot.state->v, motors, robot.type->dofs};
         return has_hard_motor(tree_axis<double>(model, type, states, d));
     };
     for (std::size_t d = 0; d < type.dofs.size(); ++d)

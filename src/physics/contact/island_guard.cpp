@@ -32,7 +32,8 @@ double most_work_of_motors(const Model& model, std::span<RobotWork> robots,
             const bool is_first = row == 0 || rows.joints[row - 1].dof != joint.dof;
             if (!is_first || motors[static_cast<std::size_t>(joint.dof - first)].mode == MotorMode::kPassive)
                 continue;
-            const double mobility = robot.dofs()[static_cast<std::size_t>(joint.dof - first)].inverse_inertia;
+            const double mobility =
+                robot.type->dofs[static_cast<std::size_t>(joint.dof - first)].inverse_inertia;
             work += most_work(joint.impulse, island.v_before[static_cast<std::size_t>(joint.dof)], mobility);
         }
     }
@@ -117,7 +118,7 @@ bool throws_back(const IslandRows& rows) {
 bool has_soft_loop_motor(const RobotWork& robot) {
     for (const LoopJoint& loop : robot.type->loops)
         for (std::size_t k = 0; k < loop.dofs.size(); ++k) {
-            const Dof& dof = dof_of(loop, *robot.state, k);
+            const Dof& dof = loop.dofs[k];
             const MotorMode mode = robot.state->motors[static_cast<std::size_t>(loop.motor_index) + k].mode;
             const bool has_gains = dof.velocity_gain > 0 || dof.position_gain > 0;
             if (mode == MotorMode::kEffort || (mode != MotorMode::kPassive && has_gains)) return true;

@@ -69,7 +69,7 @@ Spatial base_velocity(const RobotType& type, const RobotState& state) {
 }
 
 void place_robot(const Model& model, RobotId id, RobotState& state, RobotWork& work) {
-    const RobotType& type = model.type_of(id);
+    const RobotType& type = type_of(model.type_of(id), state);
     work.id = id;
     work.take(type, state);
     work.contacts = 0;
@@ -109,7 +109,7 @@ void compute_impulse(const Model& model, double dt, double momentum_weight, std:
 void keep_inertias(double dt, Mechanics<double>& work) {
     work.own_inertias.clear(), work.joint_inertias.clear();
     for (const BodyWork& body : work.bodies) work.own_inertias.push_back(body.inertia);
-    for (const Dof& dof : work.dofs()) work.joint_inertias.push_back(joint_inertia(dof, dt));
+    for (const Dof& dof : work.type->dofs) work.joint_inertias.push_back(joint_inertia(dof, dt));
 }
 
 void compute_inertias(const RobotType& type, RobotWork& work) {

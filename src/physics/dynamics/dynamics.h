@@ -98,7 +98,7 @@ void forward_velocities(const RobotType& type, std::span<const T> v, Mechanics<T
 template <class T>
 void add_joint_impulses(const RobotType& type, double dt, double momentum_weight, std::span<const T> q,
                         std::span<const T> v, Mechanics<T>& work) {
-    const std::span<const Dof> dofs = work.dofs();
+    const std::span<const Dof> dofs = work.type->dofs;
     for (std::size_t d = 0; d < dofs.size(); ++d) {
         const Dof& dof = dofs[d];
         const std::size_t i = d + static_cast<std::size_t>(type.base_nv());
@@ -151,7 +151,7 @@ void sum_impulses(double dt, double momentum_weight, std::span<const T> q, std::
 template <class T>
 void take_off_damping(double dt, std::span<const T> v, Mechanics<T>& work) {
     const RobotType& type = *work.type;
-    const std::span<const Dof> dofs = work.dofs();
+    const std::span<const Dof> dofs = work.type->dofs;
     for (std::size_t d = 0; d < dofs.size(); ++d) {
         const Dof& dof = dofs[d];
         const double damping = dt * dof.damping + dt * dt * dof.spring_stiffness;
@@ -206,7 +206,7 @@ void compute_mass_matrix(const RobotType& type, double dt, Mechanics<T>& work) {
         }
         if (body.parent >= 0) work.bodies[static_cast<std::size_t>(body.parent)].inertia += subtree;
     }
-    const std::span<const Dof> dofs = work.dofs();
+    const std::span<const Dof> dofs = work.type->dofs;
     for (std::size_t d = 0; d < dofs.size(); ++d) {
         const Dof& dof = dofs[d];
         const std::size_t i = d + static_cast<std::size_t>(type.base_nv());

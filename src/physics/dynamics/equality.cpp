@@ -252,7 +252,7 @@ void leave_out_locked(std::span<const char> locked, Equalities& equalities) {
 
 void EqualityProjection::place(const RobotWork& robot, std::span<const double> q) {
     const RobotType& type = *robot.type;
-    work_.type = robot.type, work_.own_dofs = robot.own_dofs;
+    work_.type = robot.type;
     walk_.place(type, q, work_);
     for (BodyWork& body : work_.bodies) body.velocity = body.bias = {};
     gather_for_solver(work_, q, equalities_, walk_.team());

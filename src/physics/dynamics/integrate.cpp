@@ -59,7 +59,7 @@ void add_equality_acceleration(std::span<const double> q, std::span<const char> 
 void add_joint_forces(const Model& model, std::span<const double> q, std::span<const double> v,
                       bool has_stiff, RobotWork& work) {
     const RobotType& type = *work.type;
-    const std::span<const Dof> dofs = work.dofs();
+    const std::span<const Dof> dofs = work.type->dofs;
     for (std::size_t d = 0; d < dofs.size(); ++d) {
         const Dof& dof = dofs[d];
         const std::size_t i = d + static_cast<std::size_t>(type.base_nv());

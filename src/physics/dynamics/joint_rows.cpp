@@ -16,7 +16,7 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 JointStates<double> joint_states(const RobotWork& robot) {
-    return {robot.state->q, robot.state->v, robot.state->motors, robot.dofs()};
+    return {robot.state->q, robot.state->v, robot.state->motors, robot.type->dofs};
 }
 
 /// Adds a row over the degrees of freedom that move B of the loop joint against A.
@@ -92,7 +92,7 @@ bool add_loop_axes(const Model& model, const RobotWork& robot, const LoopJoint& 
     bool corrects = false;
     for (std::size_t k = 0; k < free.count; ++k) {
         const FreeDirection& direction = free.directions[k];
-        const Dof& dof = dof_of(loop, *robot.state, k);
+        const Dof& dof = loop.dofs[k];
         const bool turns_alone = one_hinge && type.motions[k] == JointKind::kRevolute;
         MotorSetpoint& motor = robot.state->motors[static_cast<std::size_t>(loop.motor_index) + k];
         const AxisState axis{dof,
@@ -116,7 +116,7 @@ bool add_loop_axes(const Model& model, const RobotWork& robot, const LoopJoint& 
 /// True if the free directions of a loop joint are not all left to themselves.
 bool needs_rows(const LoopJoint& loop, const RobotState& state) {
     for (std::size_t d = 0; d < loop.dofs.size(); ++d) {
-        const Dof& dof = dof_of(loop, state, d);
+        const Dof& dof = loop.dofs[d];
         if (!is_switched_off(state.motors[static_cast<std::size_t>(loop.motor_index) + d])) return true;
         if (dof.friction > 0 || dof.damping > 0 || dof.spring_stiffness > 0) return true;
         if (std::isfinite(dof.lower) || std::isfinite(dof.upper)) return true;
@@ -167,7 +167,7 @@ bool moves_freely(const Model& model, const RobotWork& robot) {
         if (needs_rows(loop, *robot.state)) return false;
     if (drag_is_stiff(model, robot) || (type.feels_flow && flow_is_stiff(model, robot))) return false;
     for (std::size_t d = 0; d < type.dofs.size(); ++d)
-        if (is_stiff(robot.dofs()[d], model.dt_s) ||
+        if (is_stiff(robot.type->dofs[d], model.dt_s) ||
             !is_left_alone(tree_axis(model, type, joint_states(robot), d)))
             return false;
     return true;

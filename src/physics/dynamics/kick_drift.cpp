@@ -148,7 +148,7 @@ class KickDrift {
     /// Stiff springs and dampings as the solver took them: at the end of the tick.
     void add_stiff_forces() {
         for (std::size_t d = 0; d < type_.dofs.size(); ++d) {
-            const Dof& dof = work_.dofs()[d];
+            const Dof& dof = work_.type->dofs[d];
             if (!is_stiff(dof, model_.dt_s)) continue;
             const double rate = solved_.velocity[dof_index(d)];
             double& force = buffer_.force[dof_index(d)];
@@ -204,7 +204,7 @@ class KickDrift {
         const double dt = model_.dt_s;
         bool any = false;
         for (std::size_t d = 0; d < type_.dofs.size(); ++d) {
-            const Dof& dof = work_.dofs()[d];
+            const Dof& dof = work_.type->dofs[d];
             const Body& body = body_of(dof);
             const std::size_t i = dof_index(d);
             if (held.locked[i] || !joint_traits(body.joint).has_positions()) continue;
@@ -438,7 +438,7 @@ bool only_motors_drive(const Model& model, const RobotWork& work) {
         if (drag.wind) return false;
     for (const LoopJoint& loop : type.loops)
         for (std::size_t k = 0; k < loop.dofs.size(); ++k) {
-            const Dof& dof = dof_of(loop, *work.state, k);
+            const Dof& dof = loop.dofs[k];
             if (dof.spring_stiffness > 0 || std::isfinite(dof.limit_stiffness)) return false;
         }
     return true;

@@ -126,10 +126,10 @@ void drive(Simulation& sim) {
     for (std::size_t r = 0; r < sim.states.size(); ++r)
         for (std::size_t d = 0; d < sim.states[r].motors.size(); d += 2) {
             const RobotType& type = sim.type(r);
-            const std::span<const Dof> axes = dofs_of(type, sim.states[r]);
+            const std::vector<Dof>& axes = type_of(type, sim.states[r]).dofs;
             const bool in_tree = d < axes.size();
             const double most =
-                in_tree ? axes[d].max_effort : dof_of(type.loops[0], sim.states[r], 0).max_effort;
+                in_tree ? axes[d].max_effort : type_of(type, sim.states[r]).loops[0].dofs[0].max_effort;
             const bool places = in_tree && type.bodies[static_cast<std::size_t>(axes[d].body)].nv == 1;
             const MotorMode mode = places && d % 4 == 0 ? MotorMode::kPosition : MotorMode::kVelocity;
             const double target = (sim.tick / 50 + static_cast<Tick>(d)) % 2 == 0 ? 0.3 : -0.2;
@@ -162,8 +162,8 @@ void expect_equal_runs(const Scene& scene, Precision precision) {
         a.step(), b.step();
         for (std::size_t r = 0; r < a.states.size(); ++r) {
             RobotState without = b.states[r];
-            ASSERT_FALSE(without.own_dofs.empty());
-            without.own_dofs.clear();
+            ASSERT_FALSE(without.own.empty());
+            without.own = {};
             ASSERT_EQ(state_hash(a.ids[r], a.tick, a.states[r]), state_hash(a.ids[r], a.tick, without))
                 << "robot " << r << ", tick " << i;
         }

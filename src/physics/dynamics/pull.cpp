@@ -14,7 +14,7 @@ constexpr double kRatePerTick = 0.25;  // rad
 
 /// Motion and factored mass matrix of a robot, all that a pull needs to know.
 void place_and_factor(const Model& model, RobotId robot, RobotState& state, RobotWork& work) {
-    const RobotType& type = model.type_of(robot);
+    const RobotType& type = type_of(model.type_of(robot), state);
     work.id = robot, work.take(type, state);
     forward_kinematics<double>(type, state.q, work);
     forward_velocities<double>(type, state.v, work);
@@ -63,7 +63,7 @@ Vec3 pull_force(const TimedPull& pull, const Vec3& p_W, const Vec3& velocity, do
 
 void apply_pulls(const Model& model, Tick tick, RobotId robot, RobotState& state, RobotWork& work) {
     std::erase_if(state.pulls, [&](const TimedPull& p) { return p.until <= tick; });
-    const RobotType& type = model.type_of(robot);
+    const RobotType& type = type_of(model.type_of(robot), state);
     bool placed = false;
     for (const TimedPull& pull : state.pulls) {
         const Link& link = type.links[pull.link.index()];

@@ -95,7 +95,7 @@ BodySums sum_placed_bodies(const Model& model, std::span<const double> q, std::s
         compute_inertias(type, work);
         for (std::size_t b = 0; b < type.bodies.size(); ++b) add(b, terms_of(b));
     }
-    const std::span<const Dof> dofs = work.dofs();
+    const std::span<const Dof> dofs = work.type->dofs;
     for (std::size_t d = 0; d < dofs.size(); ++d) {
         const Dof& dof = dofs[d];
         const double rate = v[d + static_cast<std::size_t>(type.base_nv())];

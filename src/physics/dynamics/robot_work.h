@@ -52,12 +52,9 @@ struct FlowWork {
 /// The mechanics of a robot (T = double), or of a few of one type in lanes.
 template <class T>
 struct Mechanics {
-    const RobotType* type = nullptr;
-    /// The robot's own numbers of the tree's axes; nullptr: those of its type. Set with `type`, and read by
-    /// dofs().
-    const Dof* own_dofs = nullptr;
-    Vec3T<T> origin;     // O: the base origin, m, world
-    TransformT<T> X_W0;  // the base
+    const RobotType* type = nullptr;  // type_of() the robot, or of all in the lanes
+    Vec3T<T> origin;                  // O: the base origin, m, world
+    TransformT<T> X_W0;               // the base
     std::vector<BodyWorkT<T>> bodies;
     std::vector<SpatialT<T>> axes;  // one a degree of freedom: motion of its body per unit of v, about O
     std::vector<T> mass_matrix;     // packed by the type's paths; implicit damping and springs included
@@ -74,17 +71,6 @@ struct Mechanics {
     Spatial base;                       // velocity of a kinematic base about O; of others zero
     T speed{};                          // m/s, no point of its shapes is faster
     bool touches_robot = false;         // has a contact with another robot or itself
-
-    /// Becomes that of a robot, or of a few with the same numbers of axes.
-    void take(const RobotType& its_type, const RobotState& its_state) {
-        type = &its_type;
-        own_dofs = its_state.own_dofs.empty() ? nullptr : its_state.own_dofs.data();
-    }
-    /// The axes of the tree's joints.
-    std::span<const Dof> dofs() const {
-        if (own_dofs == nullptr) return type->dofs;
-        return {own_dofs, type->dofs.size()};
-    }
 };
 
 struct RobotWork : Mechanics<double> {
@@ -98,11 +84,8 @@ struct RobotWork : Mechanics<double> {
     bool pushed = false;  // a contact gives it an impulse in this tick
     bool bonded = false;  // a bond joins it to another robot or to the scenery in this tick
 
-    /// Becomes that of a robot, whose state it keeps.
-    void take(const RobotType& its_type, RobotState& its_state) {
-        Mechanics<double>::take(its_type, its_state);
-        state = &its_state;
-    }
+    /// Becomes that of a robot, whose state it keeps. `its_type`: type_of() it.
+    void take(const RobotType& its_type, RobotState& its_state) { type = &its_type, state = &its_state; }
 };
 
 /// Everything up to the shapes and the interaction bound, for a robot that is awake; `ordered` is left as it

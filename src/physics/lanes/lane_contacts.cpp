@@ -25,7 +25,7 @@ RobotWork& LaneContacts::start(const Model& model, std::size_t lane, const LaneR
                                const Aabb& box) {
     RobotWork& work = works_[lane];
     work.id = robot.id;
-    work.take(model.type_of(robot.id), *robot.state);
+    work.take(type_of(model.type_of(robot.id), *robot.state), *robot.state);
     work.asleep = false;
     work.box = box;
     work.shapes.resize(work.type->shapes.size());

@@ -19,15 +19,15 @@ class LaneState {
     using Wide = WideOf<T>;
 
     /// Coordinates, velocities and motors. Lanes without a robot, or with a motor in another mode than the
-    /// first robot's, or with other numbers of axes, leave, but compute along with the first robot's values.
+    /// first robot's, or with other own numbers, leave, but compute along with the first robot's values.
     void gather(const RobotType& type, std::span<const LaneRobot> robots, Lockstep<T>& together) {
         const RobotState& first = *robots[0].state;
-        dofs_ = dofs_of(type, first);
+        dofs_ = type.dofs;
         q_.resize(first.q.size()), v_.resize(first.v.size()), motors_.resize(first.motors.size());
         targets_.resize(motors_.size());
         for (std::size_t m = 0; m < motors_.size(); ++m) motors_[m].mode = first.motors[m].mode;
         for (std::size_t lane = 0; lane < kLanesOf<T>; ++lane) {
-            if (lane >= robots.size() || robots[lane].state->own_dofs != first.own_dofs) together.leave(lane);
+            if (lane >= robots.size() || robots[lane].state->own != first.own) together.leave(lane);
             take(lane, lane < robots.size() ? *robots[lane].state : first, together);
         }
         if constexpr (kIsFloat<T>)

@@ -101,10 +101,10 @@ class LaneStep final : public LaneStepper {
     }
 
     void place_bodies(const Model& model, std::span<const LaneRobot> robots, Lockstep<T>& together) {
-        const RobotType& type = model.type_of(robots[0].id);
-        work_.take(type, *robots[0].state);
+        const RobotType& type = type_of(model.type_of(robots[0].id), *robots[0].state);
+        work_.type = &type;
         state_.gather(type, robots, together);
-        placed().take(type, *robots[0].state);
+        placed().type = &type;
         forward_kinematics<Wide>(type, state_.q(), placed());
         forward_velocities<Wide>(type, state_.v(), placed());
     }

@@ -42,7 +42,7 @@ bool rests_in_lanes(const Model& model, const RobotType& type, const RobotState&
 bool LaneSteppers::take(const Model& model, const RobotType& type, const RobotState& state) const {
     if (lanes == nullptr) return false;
     // Lanes have one set of numbers for all; in floats each robot has a try by itself behind them.
-    if (!in_floats() && !state.own_dofs.empty()) return false;
+    if (!in_floats() && !state.own.empty()) return false;
     return fits_lanes(type, state) || (!in_floats() && rests_in_lanes(model, type, state));
 }
 

@@ -1,0 +1,346 @@
+// See link_parameters.h.
+#include "model/link_parameters.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <tuple>
+
+#include "math/inertia_checks.h"
+#include "model/compile_type.h"
+#include "model/robot_state.h"
+
+namespace roboss {
+namespace {
+
+using enum LinkParameter;
+
+constexpr double kLargestOfMass = 1e12, kLargestOfSurface = 1e6, kLeastMass = 1e-9;  // kg
+constexpr std::size_t kInertias = 6;                                                 // from kInertiaXx
+
+constexpr std::array<LinkParameterInfo, kLinkParameters> kLinkRows{{
+    {"mass", "kg"},
+    {"centre_x", "m", false},
+    {"centre_y", "m", false},
+    {"centre_z", "m", false},
+    {"inertia_xx", "kg m^2"},
+    {"inertia_yy", "kg m^2"},
+    {"inertia_zz", "kg m^2"},
+    {"inertia_xy", "kg m^2", false},
+    {"inertia_xz", "kg m^2", false},
+    {"inertia_yz", "kg m^2", false},
+    {"friction", "", true, &Material::mu},
+    {"friction_across", "", true, &Material::mu2},
+    {"restitution", "", true, &Material::restitution},
+    {"torsional_friction", "", true, &Material::torsional_mu},
+    {"rolling_friction", "m", true, &Material::rolling},
+}};
+
+bool is_inertia(LinkParameter parameter) {
+    return parameter >= kInertiaXx && parameter <= kInertiaYz;
+}
+
+bool is_of_surface(LinkParameter parameter) {
+    return info_of(parameter).surface != nullptr;
+}
+
+std::string text_of(double value) {
+    char buffer[32];
+    std::snprintf(buffer, sizeof buffer, "%g", value);
+    return buffer;
+}
+
+/// A number that no link can have: what is wrong with it, as the end of a sentence.
+struct LinkFault {
+    std::string text;
+    const char *remedy, *code;
+};
+
+/// The fault of a number, whatever the type of the robot; nullopt: none.
+std::optional<LinkFault> fault_of(LinkParameter parameter, double value) {
+    if (!std::isfinite(value)) return LinkFault{"", "give a finite number", "not-finite"};
+    if (parameter == kMass && value < kLeastMass)
+        return LinkFault{"; a link that moves weighs at least " + text_of(kLeastMass) + " kg",
+                         "give a mass above that", "bad-parameter"};
+    if (info_of(parameter).signless && value < 0)
+        return LinkFault{"; it cannot be negative", "give a number of at least 0", "bad-parameter"};
+    if (parameter == kRestitution && value > 1)
+        return LinkFault{"; above 1, a bounce would gain energy", "give a number from 0 to 1",
+                         "bad-parameter"};
+    if (const double most = is_of_surface(parameter) ? kLargestOfSurface : kLargestOfMass;
+        std::fabs(value) > most)
+        return LinkFault{"; more than " + text_of(most) + " is no number of a link", "give at most that",
+                         "beyond-limit"};
+    return std::nullopt;
+}
+
+/// Of the six numbers from kInertiaXx.
+Mat3 matrix_of(const std::array<double, kInertias>& i) {
+    return {{i[0], i[3], i[4]}, {i[3], i[1], i[5]}, {i[4], i[5], i[2]}};
+}
+
+bool is_of_a_body(const Mat3& inertia) {
+    return resists_every_turn(inertia) && obeys_triangle_inequality(inertia);
+}
+
+/// The collision shape of a link that has the parameter; nullptr: none has.
+const BodyShape* shape_with(const RobotType& type, LinkId link, LinkParameter parameter) {
+    const auto found = std::ranges::find_if(type.shapes, [&](const BodyShape& shape) {
+        return shape.link == link && (parameter != kFrictionAcross || shape.material.direction_S != Vec3{});
+    });
+    return found == type.shapes.end() ? nullptr : &*found;
+}
+
+/// Without a direction, friction is the same in all.
+void put_surface(LinkParameter parameter, double value, Material& material) {
+    const bool has_direction = material.direction_S != Vec3{};
+    if (parameter == kFrictionAcross && !has_direction) return;
+    material.*info_of(parameter).surface = value;
+    if (parameter == kFriction && !has_direction) material.mu2 = value;
+}
+
+std::optional<double> given(std::span<const LinkParameterValue> values, LinkParameter parameter) {
+    const auto found = std::ranges::find(values, parameter, &LinkParameterValue::parameter);
+    if (found == values.end()) return std::nullopt;
+    return found->value;
+}
+
+/// The inertia that the numbers give; nullopt: none of its six numbers is given, or not all.
+std::optional<Mat3> given_inertia(std::span<const LinkParameterValue> values) {
+    std::array<double, kInertias> six{};
+    for (std::size_t i = 0; i < kInertias; ++i) {
+        const auto one = given(values, static_cast<LinkParameter>(static_cast<std::size_t>(kInertiaXx) + i));
+        if (!one) return std::nullopt;
+        six[i] = *one;
+    }
+    return matrix_of(six);
+}
+
+bool gives_inertia(std::span<const LinkParameterValue> values) {
+    return std::ranges::any_of(values, is_inertia, &LinkParameterValue::parameter);
+}
+
+/// Checks the numbers of one link, and names what is wrong.
+class LinkCheck {
+  public:
+    LinkCheck(const std::string& robot, const RobotType& type, const SetLinkParameters& order)
+        : type_(type), order_(order), link_(type.links[order.link.index()]) {
+        called_ = "link '" + link_.name + "' of robot '" + robot + "'";
+    }
+
+    Result<> run() const {
+        if (order_.values.empty() && !order_.reset)
+            return Error{"order for the parameters of " + called_ + " names none",
+                         "name some of " + link_parameter_names() + ", or reset them", "no-parameter"};
+        for (const LinkParameterValue& one : order_.values)
+            if (Result<> fine = check(one); !fine) return fine;
+        return check_inertia();
+    }
+
+  private:
+    Result<> check(const LinkParameterValue& one) const {
+        if (static_cast<std::size_t>(one.parameter) >= kLinkParameters)
+            return Error{"order for a parameter of " + called_ + " that does not exist",
+                         "name some of " + link_parameter_names(), "no-parameter"};
+        const LinkParameterInfo& row = info_of(one.parameter);
+        if (std::ranges::count(order_.values, one.parameter, &LinkParameterValue::parameter) > 1)
+            return Error{"order for " + called_ + " names '" + row.name + "' twice", "name it once",
+                         "repeated-parameter"};
+        const std::string what = std::string("'") + row.name + "' of " + called_;
+        if (Result<> fine = check_link(what, one.parameter); !fine) return fine;
+        const std::optional<LinkFault> fault = fault_of(one.parameter, one.value);
+        if (!fault) return Ok{};
+        const std::string unit = *row.unit == '\0' ? "" : std::string(" ") + row.unit;
+        return Error{what + " is " + text_of(one.value) + unit + fault->text, fault->remedy, fault->code};
+    }
+
+    /// Refuses a number that this link does not have.
+    Result<> check_link(const std::string& what, LinkParameter parameter) const {
+        if (is_of_surface(parameter)) {
+            if (shape_with(type_, order_.link, parameter) != nullptr) return Ok{};
+            if (shape_with(type_, order_.link, kFriction) == nullptr)
+                return Error{what + ": it has no collision shapes", "set it for a link that touches things",
+                             "no-shapes"};
+            return Error{what + ": its friction is the same in all directions",
+                         "set 'friction', or write a direction (fdir1) in the world file", "no-direction"};
+        }
+        if (!(link_.mass > 0))
+            return Error{what + ": the link has no mass in the file", "give it one in the world file",
+                         "no-mass"};
+        if (type_.elimination.empty()) return Ok{};
+        return Error{what + ": robots with this many loops keep their masses",
+                     "write it in the world file, for all robots of the type", "many-loops"};
+    }
+
+    Result<> check_inertia() const {
+        if (!gives_inertia(order_.values)) return Ok{};
+        const std::optional<Mat3> inertia = given_inertia(order_.values);
+        if (!inertia)
+            return Error{"order for " + called_ + " sets a part of its inertia",
+                         "give inertia_xx, inertia_yy, inertia_zz, inertia_xy, inertia_xz and inertia_yz",
+                         "half-inertia"};
+        if (is_of_a_body(*inertia)) return Ok{};
+        return Error{"no body can have the inertia that an order gives " + called_,
+                     "give moments above 0 about the centre of mass, none above the sum of the other two",
+                     "bad-inertia"};
+    }
+
+    const RobotType& type_;
+    const SetLinkParameters& order_;
+    const Link& link_;
+    std::string called_;
+};
+
+/// The own numbers of one link.
+std::vector<LinkParameterValue> numbers_of(std::span<const OwnLinkNumber> own, LinkId link) {
+    std::vector<LinkParameterValue> values;
+    for (const OwnLinkNumber& one : own)
+        if (one.link == link) values.push_back(one.number);
+    return values;
+}
+
+auto place_of(const OwnLinkNumber& one) {
+    return std::tuple(one.link, one.number.parameter);
+}
+
+void put_number(const OwnLinkNumber& one, std::vector<OwnLinkNumber>& own) {
+    const auto at = std::ranges::lower_bound(own, place_of(one), {},
+                                             [](const OwnLinkNumber& other) { return place_of(other); });
+    if (at != own.end() && place_of(*at) == place_of(one))
+        at->number.value = one.number.value;
+    else
+        own.insert(at, one);
+}
+
+/// Forgets numbers of a link that are those of the type. An inertia is one number here.
+void forget_equal(const RobotType& type, LinkId link, std::vector<OwnLinkNumber>& own) {
+    const auto is_equal = [&](const OwnLinkNumber& one) {
+        return one.link == link && link_number(type, link, one.number.parameter) == one.number.value;
+    };
+    const auto keeps_inertia = [&](const OwnLinkNumber& one) {
+        return one.link == link && is_inertia(one.number.parameter) && !is_equal(one);
+    };
+    const bool heavier = std::ranges::any_of(own, [&](const OwnLinkNumber& one) {
+        return one.link == link && one.number.parameter == kMass && !is_equal(one);
+    });
+    const bool inertia_differs = heavier || std::ranges::any_of(own, keeps_inertia);
+    std::erase_if(own, [&](const OwnLinkNumber& one) {
+        if (one.link == link && is_inertia(one.number.parameter)) return !inertia_differs;
+        return is_equal(one);
+    });
+}
+
+/// Gives a link its own mass, centre of mass and inertia. False: it has none of its own.
+bool weigh(std::span<const LinkParameterValue> values, Link& link) {
+    const auto is_mass = [](const LinkParameterValue& one) { return !is_of_surface(one.parameter); };
+    if (std::ranges::none_of(values, is_mass)) return false;
+    const double mass = given(values, kMass).value_or(link.mass);
+    const std::optional<double> centre[] = {given(values, kCentreX), given(values, kCentreY),
+                                            given(values, kCentreZ)};
+    if (centre[0] || centre[1] || centre[2]) {
+        Vec3 p_LC = inverse(link.X_BL) * link.p_BC;
+        for (std::size_t i = 0; i < 3; ++i) p_LC[i] = centre[i].value_or(p_LC[i]);
+        link.p_BC = link.X_BL * p_LC;
+    }
+    if (const std::optional<Mat3> inertia = given_inertia(values))
+        link.inertia_C = link.X_BL.R * *inertia * transpose(link.X_BL.R);
+    else if (mass != link.mass)
+        link.inertia_C = link.inertia_C * (mass / link.mass);
+    link.mass = mass;
+    return true;
+}
+
+/// Sums a body up again from its links.
+void sum_up(const RobotType& type, int number, Body& body) {
+    body.mass = body.gravity_mass = 0;
+    body.p_BC = body.p_BG = {};
+    body.inertia_C = {};
+    for (const Link& link : type.links)
+        if (link.body == number) add_mass(body, link);
+}
+
+}  // namespace
+
+std::span<const LinkParameterInfo> link_parameters() {
+    return kLinkRows;
+}
+
+const LinkParameterInfo& info_of(LinkParameter parameter) {
+    return kLinkRows[static_cast<std::size_t>(parameter)];
+}
+
+std::optional<LinkParameter> find_link_parameter(std::string_view name) {
+    for (std::size_t i = 0; i < kLinkRows.size(); ++i)
+        if (name == kLinkRows[i].name) return static_cast<LinkParameter>(i);
+    return std::nullopt;
+}
+
+std::string link_parameter_names() {
+    std::string names;
+    for (const LinkParameterInfo& row : kLinkRows) names += std::string(names.empty() ? "" : ", ") + row.name;
+    return names;
+}
+
+Result<> check_link_parameters(const std::string& robot, const RobotType& type,
+                               const SetLinkParameters& order) {
+    if (order.link.index() < type.links.size()) return LinkCheck(robot, type, order).run();
+    return Error{"order for the parameters of a link that robot '" + robot + "' does not have",
+                 "see `roboss check` for its links", "no-link"};
+}
+
+void apply_link_parameters(const RobotType& type, const SetLinkParameters& order, RobotState& state) {
+    OwnNumbers own = state.own;
+    if (order.reset)
+        std::erase_if(own.links, [&](const OwnLinkNumber& one) { return one.link == order.link; });
+    for (const LinkParameterValue& one : order.values) put_number({order.link, one}, own.links);
+    forget_equal(type, order.link, own.links);
+    set_own(type, std::move(own), state);
+}
+
+std::optional<double> link_number(const RobotType& type, LinkId link, LinkParameter parameter) {
+    const Link& its = type.links[link.index()];
+    if (is_of_surface(parameter)) {
+        const BodyShape* shape = shape_with(type, link, parameter);
+        if (shape == nullptr) return std::nullopt;
+        return shape->material.*info_of(parameter).surface;
+    }
+    if (!(its.mass > 0)) return std::nullopt;
+    if (parameter == kMass) return its.mass;
+    if (!is_inertia(parameter))
+        return (inverse(its.X_BL) * its.p_BC)[static_cast<std::size_t>(parameter) - 1];
+    const Mat3 I = transpose(its.X_BL.R) * its.inertia_C * its.X_BL.R;
+    const double six[] = {I.r0.x, I.r1.y, I.r2.z, I.r0.y, I.r0.z, I.r1.z};
+    return six[static_cast<std::size_t>(parameter) - static_cast<std::size_t>(kInertiaXx)];
+}
+
+bool may_own(const RobotType& type, std::span<const OwnLinkNumber> own) {
+    for (std::size_t i = 0; i < own.size();) {
+        SetLinkParameters order;
+        order.link = own[i].link;
+        for (; i < own.size() && own[i].link == order.link; ++i) {
+            if (i > 0 && place_of(own[i - 1]) >= place_of(own[i])) return false;
+            order.values.push_back(own[i].number);
+        }
+        if (!check_link_parameters("", type, order)) return false;
+    }
+    return true;
+}
+
+bool put_numbers(std::span<const OwnLinkNumber> own, RobotType& type) {
+    bool weighed = false;
+    for (std::size_t i = 0; i < own.size(); ++i) {
+        const LinkId id = own[i].link;
+        if (const auto& [parameter, value] = own[i].number; is_of_surface(parameter))
+            for (BodyShape& shape : type.shapes)
+                if (shape.link == id) put_surface(parameter, value, shape.material);
+        if (i > 0 && own[i - 1].link == id) continue;
+        Link& link = type.links[id.index()];
+        if (!weigh(numbers_of(own, id), link) || link.body < 0) continue;
+        weighed = true;
+        sum_up(type, link.body, type.bodies[static_cast<std::size_t>(link.body)]);
+    }
+    return weighed;
+}
+
+}  // namespace roboss
