@@ -4,11 +4,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <tuple>
 
 #include "core/fixed_math.h"
 #include "model/joint_motion.h"
+#include "model/own_number_lists.h"
 #include "model/robot_state.h"
 #include "world/joint_type.h"
 
@@ -34,31 +34,19 @@ constexpr std::array<JointParameterInfo, kJointParameters> kRows{{
     {"limit_dissipation", "N m s/rad", "N s/m", &Dof::limit_dissipation, true, false, false},
 }};
 
-std::string number_text(double value) {
-    char buffer[32];
-    std::snprintf(buffer, sizeof buffer, "%g", value);
-    return buffer;
-}
-
-/// A number that no joint can have: what is wrong with it, as the end of a sentence.
-struct ValueFault {
-    std::string text;
-    const char *remedy, *code;
-};
-
 /// The fault of a number, whatever the type of the robot; nullopt: none.
-std::optional<ValueFault> fault_of(JointParameter parameter, double value) {
+std::optional<NumberFault> fault_of(JointParameter parameter, double value) {
     const JointParameterInfo& row = info_of(parameter);
     if (std::isnan(value) || (std::isinf(value) && !row.endless))
-        return ValueFault{"", "give a finite number", "not-finite"};
+        return NumberFault{"", "give a finite number", "not-finite"};
     if (row.signless && value < 0)
-        return ValueFault{"; it cannot be negative", "give a number of at least 0", "bad-parameter"};
+        return NumberFault{"; it cannot be negative", "give a number of at least 0", "bad-parameter"};
     if (parameter == JointParameter::kLimitStiffness && value == 0)
-        return ValueFault{"; a limit that does not push is none",
-                          "give a stiffness above 0, or move the limits", "bad-parameter"};
+        return NumberFault{"; a limit that does not push is none",
+                           "give a stiffness above 0, or move the limits", "bad-parameter"};
     if (std::isfinite(value) && std::fabs(value) > kLargestParameter)
-        return ValueFault{"; more than " + number_text(kLargestParameter) + " is no number of a joint",
-                          "give at most that; docs/physics.md lists the limits of orders", "beyond-limit"};
+        return NumberFault{"; more than " + number_text(kLargestParameter) + " is no number of a joint",
+                           "give at most that; docs/physics.md lists the limits of orders", "beyond-limit"};
     return std::nullopt;
 }
 
@@ -76,18 +64,9 @@ bool lacks(const RobotType& type, const Joint& joint, JointParameter parameter) 
     return is_rotor(parameter) && (joint.loop >= 0 || !type.elimination.empty());
 }
 
-auto place_of(const OwnJointNumber& one) {
+constexpr auto kPlaceOfJointNumber = [](const OwnJointNumber& one) {
     return std::tuple(one.joint, one.axis, one.number.parameter);
-}
-
-void put_number(const OwnJointNumber& one, std::vector<OwnJointNumber>& own) {
-    const auto at = std::ranges::lower_bound(own, place_of(one), {},
-                                             [](const OwnJointNumber& other) { return place_of(other); });
-    if (at != own.end() && place_of(*at) == place_of(one))
-        at->number.value = one.number.value;
-    else
-        own.insert(at, one);
-}
+};
 
 /// Checks the numbers of one axis, and names what is wrong.
 class AxisCheck {
@@ -98,9 +77,8 @@ class AxisCheck {
     }
 
     Result<> run() const {
-        if (order_.values.empty() && !order_.reset)
-            return Error{"order for the parameters of " + called_ + " names none",
-                         "name some of " + joint_parameter_names() + ", or reset them", "no-parameter"};
+        if (Result<> fine = check_list(order_, called_, kJointParameters, joint_parameter_names()); !fine)
+            return fine;
         for (const JointParameterValue& one : order_.values)
             if (Result<> fine = check(one); !fine) return fine;
         return check_axis_limits();
@@ -108,13 +86,7 @@ class AxisCheck {
 
   private:
     Result<> check(const JointParameterValue& one) const {
-        if (static_cast<std::size_t>(one.parameter) >= kJointParameters)
-            return Error{"order for a parameter of " + called_ + " that does not exist",
-                         "name some of " + joint_parameter_names(), "no-parameter"};
         const JointParameterInfo& row = info_of(one.parameter);
-        if (std::ranges::count(order_.values, one.parameter, &JointParameterValue::parameter) > 1)
-            return Error{"order for " + called_ + " names '" + row.name + "' twice", "name it once",
-                         "repeated-parameter"};
         if (Result<> fine = check_kind(one, row); !fine) return fine;
         return check_value(one, row);
     }
@@ -136,7 +108,7 @@ class AxisCheck {
     }
 
     Result<> check_value(const JointParameterValue& one, const JointParameterInfo& row) const {
-        const std::optional<ValueFault> fault = fault_of(one.parameter, one.value);
+        const std::optional<NumberFault> fault = fault_of(one.parameter, one.value);
         if (!fault) return Ok{};
         const auto motions = joint_type(joint_.kind).motions;
         const auto motion = std::min(static_cast<std::size_t>(order_.axis), motions.size() - 1);
@@ -194,15 +166,11 @@ const JointParameterInfo& info_of(JointParameter parameter) {
 }
 
 std::optional<JointParameter> find_joint_parameter(std::string_view name) {
-    for (std::size_t i = 0; i < kRows.size(); ++i)
-        if (name == kRows[i].name) return static_cast<JointParameter>(i);
-    return std::nullopt;
+    return find_row<JointParameter>(joint_parameters(), name);
 }
 
 std::string joint_parameter_names() {
-    std::string names;
-    for (const JointParameterInfo& row : kRows) names += std::string(names.empty() ? "" : ", ") + row.name;
-    return names;
+    return names_of_rows(joint_parameters());
 }
 
 Result<> check_joint_parameters(const std::string& robot, const RobotType& type,
@@ -227,7 +195,7 @@ void apply_joint_parameters(const RobotType& type, const SetJointParameters& ord
     };
     if (order.reset) std::erase_if(own.joints, is_of_axis);
     for (const JointParameterValue& one : order.values)
-        put_number({order.joint, order.axis, one}, own.joints);
+        put_number(OwnJointNumber{order.joint, order.axis, one}, kPlaceOfJointNumber, own.joints);
     const Dof& of_type = type.dof(joint, order.axis);
     std::erase_if(own.joints, [&](const OwnJointNumber& one) {
         return is_of_axis(one) && one.number.value == of_type.*info_of(one.number.parameter).member;
@@ -239,7 +207,7 @@ void apply_joint_parameters(const RobotType& type, const SetJointParameters& ord
 
 bool may_own(const RobotType& type, std::span<const OwnJointNumber> own) {
     for (std::size_t i = 0; i < own.size(); ++i) {
-        if (i > 0 && place_of(own[i - 1]) >= place_of(own[i])) return false;
+        if (i > 0 && kPlaceOfJointNumber(own[i - 1]) >= kPlaceOfJointNumber(own[i])) return false;
         const auto& [joint, axis, number] = own[i];
         if (joint.index() >= type.joints.size()) return false;
         const Joint& info = type.joints[joint.index()];

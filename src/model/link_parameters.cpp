@@ -4,11 +4,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <tuple>
 
 #include "math/inertia_checks.h"
 #include "model/compile_type.h"
+#include "model/own_number_lists.h"
 #include "model/robot_state.h"
 
 namespace roboss {
@@ -45,33 +45,21 @@ bool is_of_surface(LinkParameter parameter) {
     return info_of(parameter).surface != nullptr;
 }
 
-std::string text_of(double value) {
-    char buffer[32];
-    std::snprintf(buffer, sizeof buffer, "%g", value);
-    return buffer;
-}
-
-/// A number that no link can have: what is wrong with it, as the end of a sentence.
-struct LinkFault {
-    std::string text;
-    const char *remedy, *code;
-};
-
 /// The fault of a number, whatever the type of the robot; nullopt: none.
-std::optional<LinkFault> fault_of(LinkParameter parameter, double value) {
-    if (!std::isfinite(value)) return LinkFault{"", "give a finite number", "not-finite"};
+std::optional<NumberFault> fault_of(LinkParameter parameter, double value) {
+    if (!std::isfinite(value)) return NumberFault{"", "give a finite number", "not-finite"};
     if (parameter == kMass && value < kLeastMass)
-        return LinkFault{"; a link that moves weighs at least " + text_of(kLeastMass) + " kg",
-                         "give a mass above that", "bad-parameter"};
+        return NumberFault{"; a link that moves weighs at least " + number_text(kLeastMass) + " kg",
+                           "give a mass above that", "bad-parameter"};
     if (info_of(parameter).signless && value < 0)
-        return LinkFault{"; it cannot be negative", "give a number of at least 0", "bad-parameter"};
+        return NumberFault{"; it cannot be negative", "give a number of at least 0", "bad-parameter"};
     if (parameter == kRestitution && value > 1)
-        return LinkFault{"; above 1, a bounce would gain energy", "give a number from 0 to 1",
-                         "bad-parameter"};
+        return NumberFault{"; above 1, a bounce would gain energy", "give a number from 0 to 1",
+                           "bad-parameter"};
     if (const double most = is_of_surface(parameter) ? kLargestOfSurface : kLargestOfMass;
         std::fabs(value) > most)
-        return LinkFault{"; more than " + text_of(most) + " is no number of a link", "give at most that",
-                         "beyond-limit"};
+        return NumberFault{"; more than " + number_text(most) + " is no number of a link",
+                           "give at most that", "beyond-limit"};
     return std::nullopt;
 }
 
@@ -130,9 +118,8 @@ class LinkCheck {
     }
 
     Result<> run() const {
-        if (order_.values.empty() && !order_.reset)
-            return Error{"order for the parameters of " + called_ + " names none",
-                         "name some of " + link_parameter_names() + ", or reset them", "no-parameter"};
+        if (Result<> fine = check_list(order_, called_, kLinkParameters, link_parameter_names()); !fine)
+            return fine;
         for (const LinkParameterValue& one : order_.values)
             if (Result<> fine = check(one); !fine) return fine;
         return check_inertia();
@@ -140,19 +127,13 @@ class LinkCheck {
 
   private:
     Result<> check(const LinkParameterValue& one) const {
-        if (static_cast<std::size_t>(one.parameter) >= kLinkParameters)
-            return Error{"order for a parameter of " + called_ + " that does not exist",
-                         "name some of " + link_parameter_names(), "no-parameter"};
         const LinkParameterInfo& row = info_of(one.parameter);
-        if (std::ranges::count(order_.values, one.parameter, &LinkParameterValue::parameter) > 1)
-            return Error{"order for " + called_ + " names '" + row.name + "' twice", "name it once",
-                         "repeated-parameter"};
         const std::string what = std::string("'") + row.name + "' of " + called_;
         if (Result<> fine = check_link(what, one.parameter); !fine) return fine;
-        const std::optional<LinkFault> fault = fault_of(one.parameter, one.value);
+        const std::optional<NumberFault> fault = fault_of(one.parameter, one.value);
         if (!fault) return Ok{};
         const std::string unit = *row.unit == '\0' ? "" : std::string(" ") + row.unit;
-        return Error{what + " is " + text_of(one.value) + unit + fault->text, fault->remedy, fault->code};
+        return Error{what + " is " + number_text(one.value) + unit + fault->text, fault->remedy, fault->code};
     }
 
     /// Refuses a number that this link does not have.
@@ -200,18 +181,9 @@ std::vector<LinkParameterValue> numbers_of(std::span<const OwnLinkNumber> own, L
     return values;
 }
 
-auto place_of(const OwnLinkNumber& one) {
+constexpr auto kPlaceOfLinkNumber = [](const OwnLinkNumber& one) {
     return std::tuple(one.link, one.number.parameter);
-}
-
-void put_number(const OwnLinkNumber& one, std::vector<OwnLinkNumber>& own) {
-    const auto at = std::ranges::lower_bound(own, place_of(one), {},
-                                             [](const OwnLinkNumber& other) { return place_of(other); });
-    if (at != own.end() && place_of(*at) == place_of(one))
-        at->number.value = one.number.value;
-    else
-        own.insert(at, one);
-}
+};
 
 /// Forgets numbers of a link that are those of the type. An inertia is one number here.
 void forget_equal(const RobotType& type, LinkId link, std::vector<OwnLinkNumber>& own) {
@@ -271,15 +243,11 @@ const LinkParameterInfo& info_of(LinkParameter parameter) {
 }
 
 std::optional<LinkParameter> find_link_parameter(std::string_view name) {
-    for (std::size_t i = 0; i < kLinkRows.size(); ++i)
-        if (name == kLinkRows[i].name) return static_cast<LinkParameter>(i);
-    return std::nullopt;
+    return find_row<LinkParameter>(link_parameters(), name);
 }
 
 std::string link_parameter_names() {
-    std::string names;
-    for (const LinkParameterInfo& row : kLinkRows) names += std::string(names.empty() ? "" : ", ") + row.name;
-    return names;
+    return names_of_rows(link_parameters());
 }
 
 Result<> check_link_parameters(const std::string& robot, const RobotType& type,
@@ -293,7 +261,8 @@ void apply_link_parameters(const RobotType& type, const SetLinkParameters& order
     OwnNumbers own = state.own;
     if (order.reset)
         std::erase_if(own.links, [&](const OwnLinkNumber& one) { return one.link == order.link; });
-    for (const LinkParameterValue& one : order.values) put_number({order.link, one}, own.links);
+    for (const LinkParameterValue& one : order.values)
+        put_number(OwnLinkNumber{order.link, one}, kPlaceOfLinkNumber, own.links);
     forget_equal(type, order.link, own.links);
     set_own(type, std::move(own), state);
 }
@@ -319,7 +288,7 @@ bool may_own(const RobotType& type, std::span<const OwnLinkNumber> own) {
         SetLinkParameters order;
         order.link = own[i].link;
         for (; i < own.size() && own[i].link == order.link; ++i) {
-            if (i > 0 && place_of(own[i - 1]) >= place_of(own[i])) return false;
+            if (i > 0 && kPlaceOfLinkNumber(own[i - 1]) >= kPlaceOfLinkNumber(own[i])) return false;
             order.values.push_back(own[i].number);
         }
         if (!check_link_parameters("", type, order)) return false;

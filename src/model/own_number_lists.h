@@ -1,0 +1,76 @@
+// What the numbers of joints and those of links have in common: their tables, faults and sorted lists.
+// Internal to the model layer.
+#pragma once
+
+#include <algorithm>
+#include <cstdio>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/result.h"
+
+namespace roboss {
+
+/// A number that nothing can have: what is wrong with it, as the end of a sentence.
+struct NumberFault {
+    std::string text;
+    const char *remedy, *code;
+};
+
+inline std::string number_text(double value) {
+    char buffer[32];
+    std::snprintf(buffer, sizeof buffer, "%g", value);
+    return buffer;
+}
+
+/// The number of the row with this name; nullopt: there is none.
+template <class Parameter, class Row>
+std::optional<Parameter> find_row(std::span<const Row> rows, std::string_view name) {
+    const auto found =
+        std::ranges::find(rows, name, [](const Row& row) { return std::string_view(row.name); });
+    if (found == rows.end()) return std::nullopt;
+    return static_cast<Parameter>(found - rows.begin());
+}
+
+/// "damping, friction, ...".
+template <class Row>
+std::string names_of_rows(std::span<const Row> rows) {
+    std::string names;
+    for (const Row& row : rows) names += std::string(names.empty() ? "" : ", ") + row.name;
+    return names;
+}
+
+/// What is wrong with the list of an order for `called`, whatever the numbers are. `names`: of all
+/// parameters.
+template <class Order>
+Result<> check_list(const Order& order, const std::string& called, std::size_t parameters,
+                    const std::string& names) {
+    if (order.values.empty() && !order.reset)
+        return Error{"order for the parameters of " + called + " names none",
+                     "name some of " + names + ", or reset them", "no-parameter"};
+    for (auto one = order.values.begin(); one != order.values.end(); ++one) {
+        if (static_cast<std::size_t>(one->parameter) >= parameters)
+            return Error{"order for a parameter of " + called + " that does not exist",
+                         "name some of " + names, "no-parameter"};
+        const auto is_same = [&](const auto& other) { return other.parameter == one->parameter; };
+        if (std::any_of(one + 1, order.values.end(), is_same))
+            return Error{"order for " + called + " names '" + info_of(one->parameter).name + "' twice",
+                         "name it once", "repeated-parameter"};
+    }
+    return Ok{};
+}
+
+/// Puts a number into a list that is sorted by place(number), in place of the one that is there.
+template <class Own, class Place>
+void put_number(const Own& one, Place place, std::vector<Own>& own) {
+    const auto at = std::ranges::lower_bound(own, place(one), {}, place);
+    if (at != own.end() && place(*at) == place(one))
+        at->number.value = one.number.value;
+    else
+        own.insert(at, one);
+}
+
+}  // namespace roboss
