@@ -153,7 +153,8 @@ TEST_F(JointParameters, ARotorInertiaChangesMobilitiesAsInAFile) {
     Diagnostics diagnostics;
     const auto other = compile(world, {}, diagnostics);
     give({JointId(2u), 0, false, {{kArmature, 0.3}}});
-    EXPECT_EQ(own().dofs, other->types[0].dofs);
+    for (std::size_t d = 0; d < type().dofs.size(); ++d)
+        EXPECT_EQ(own().dofs[d].inverse_inertia, other->types[0].dofs[d].inverse_inertia) << d;
     for (std::size_t b = 0; b < type().bodies.size(); ++b)
         EXPECT_EQ(own().bodies[b].inverse_mass_linear, other->types[0].bodies[b].inverse_mass_linear) << b;
     EXPECT_LT(own().dofs[2].inverse_inertia, type().dofs[2].inverse_inertia);
