@@ -116,7 +116,7 @@ const Mechanics<double>& SecondLook::moved(const SolvedIsland& island, int robot
     Mechanics<double>& to = moved_[i];
     if (is_moved_[i]) return to;
     is_moved_[i] = 1;
-    to.take(*work.type, *work.state), to.origin = work.origin, to.base = work.base;
+    to.type = work.type, to.origin = work.origin, to.base = work.base;
     to.bodies = work.bodies, to.axes = work.axes, to.X_W0 = work.X_W0;
     to.shapes.resize(work.shapes.size());
     for (const std::uint32_t s : work.type->shape_groups.loose) to.shapes[s] = work.shapes[s];

@@ -83,7 +83,7 @@ void Joints::add(const Model& model, const Tree& tree, std::span<const JointRow>
         AxisRow& row = rows_.emplace_back();
         const auto i = static_cast<std::size_t>(joint.dof - offset);
         const std::size_t d = i - static_cast<std::size_t>(type.base_nv());
-        const Dof& dof = tree.robot->dofs()[d];
+        const Dof& dof = tree.robot->type->dofs[d];
         add_columns(tree, i, row);
         if (joint.dof != last) known = joint.motor == nullptr ? state.motors[d].impulse / kSubsteps : 0;
         last = joint.dof;

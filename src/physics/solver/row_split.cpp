@@ -25,7 +25,7 @@ void find_locked(const IslandSolver::Problem& p, double dt, RowSplit& split) {
         const RobotType& type = *p.robots[r]->type;
         const auto first = static_cast<std::size_t>(p.offsets[r] + type.base_nv());
         for (std::size_t d = 0; d < type.dofs.size(); ++d) {
-            const Dof& dof = p.robots[r]->dofs()[d];
+            const Dof& dof = type.dofs[d];
             const double hard = hard_compliance<double>(p.accuracy) * dof.inverse_inertia;
             double stiffness = dt * dof.damping + dt * dt * dof.spring_stiffness;
             for (; row < p.rows.joints.size() && p.rows.joints[row].dof == static_cast<int>(first + d);
