@@ -38,6 +38,7 @@ from .simulation import Simulation
 from .trajectories import CartesianTrajectory, JointTrajectory, ctraj, jtraj
 from .view import View
 from .world import World, example, load
+from . import randomize as randomize
 
 __version__ = "0.2.0"
 __all__ = [
