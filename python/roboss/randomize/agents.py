@@ -23,11 +23,11 @@ class Agents:
     def __init__(self, robots: Union[Robots, PaddedRobots]):
         self.simulations: list[Simulation]
         if isinstance(robots, PaddedRobots):
-            self.simulations, self.members = list(robots.batch), list(robots.members)
+            self.simulations, self.members = _simulations_of(robots.batch), list(robots.members)
             self._mask = robots.mask
         elif isinstance(robots, Robots) and isinstance(robots.simulation, (Simulation, Batch)):
             of_batch = isinstance(robots.simulation, Batch)
-            self.simulations = list(robots.simulation) if of_batch else [robots.simulation]
+            self.simulations = _simulations_of(robots.simulation)
             self.members = [Robots(one, robots.ids) for one in self.simulations] if of_batch else [robots]
             self._mask = np.ones(robots._rows, dtype=bool)
         else:
@@ -98,10 +98,12 @@ class Agents:
         out[self._mask] = rows
         return out
 
-    def saves(self, robots: list[Robots]) -> list[tuple[Simulation, Save]]:
+    @staticmethod
+    def saves(robots: list[Robots]) -> list[tuple[Simulation, Save]]:
         """Of the simulations of these robots, with each simulation once."""
-        found = {}
-        for part in robots:
-            for one in part.simulation if isinstance(part.simulation, Batch) else [part.simulation]:
-                found[id(one._core)] = one
+        found = {id(one._core): one for part in robots for one in _simulations_of(part.simulation)}
         return [(one, one.save()) for one in found.values()]
+
+
+def _simulations_of(source: Union[Simulation, Batch]) -> list[Simulation]:
+    return [source] if isinstance(source, Simulation) else [source[number] for number in range(len(source))]

@@ -12,12 +12,12 @@ from ..names import index_of, instance, listed, whole
 from ..padded import PaddedRobots
 from ..robots import Robots
 from .agents import Agents, Mask, Rows
+from .effects import Draw, obey, orders_of
 from .streams import stream
-from .terms import Columns, KickTerm, LatencyTerm, NoiseTerm, NumberTerm, PushTerm, Term, numbers_of, parts_of
+from .terms import Columns, LatencyTerm, NoiseTerm, Term
 
 Floats = NDArray[np.float64]
 _NEVER = np.iinfo(np.int64).max
-_Order = tuple[Robots, Callable[[], None]]
 
 
 @dataclass(frozen=True, eq=False)
@@ -247,7 +247,8 @@ class Randomizer:
         try:
             drawn = draw(chosen)
             self._begun |= chosen
-            self._obey(self._orders(drawn, chosen, resets))
+            obey(orders_of(self._agents, [Draw(*one) for one in zip(self.terms, self._columns, self._draws, drawn)],
+                           chosen if resets else None))
         except RobossError:
             self._numbers, self._waits, self._due, self._begun, self._draws = before
             raise
@@ -259,7 +260,7 @@ class Randomizer:
         term = self.terms[number]
         if isinstance(term.when, tuple):
             self._wait(number, chosen, self._agents.ticks())
-            chosen = chosen & (not term.acts)
+            chosen = chosen & ~np.bool_(term.acts)
         elif term.when == "start":
             chosen = chosen & (self._numbers[number] < 0)
         self._numbers[number, chosen] += 1
@@ -269,6 +270,7 @@ class Randomizer:
     def _go_on(self, number: int, chosen: Mask, ticks: Rows) -> Mask:
         """Draws a term that is due. Returns for which agents."""
         term = self.terms[number]
+        due: Mask
         if isinstance(term.when, tuple):
             late = due = chosen & (self._due[number] <= ticks)
             while late.any():
@@ -287,75 +289,26 @@ class Randomizer:
         assert isinstance(term.when, tuple)
         least, most = term.when
         self._waits[number, chosen] += 1
-        for agent in np.flatnonzero(chosen):
+        for agent in map(int, np.flatnonzero(chosen)):
             share = self._stream(f"{term.name}/when", agent, self._waits[number, agent]).random()
             self._due[number, agent] = since[agent] + max(1, round((least + (most - least) * share) / self._agents.dt))
 
     def _fill(self, number: int, chosen: Mask) -> None:
         """What these agents draw, by the numbers of their draws."""
         term, rows = self.terms[number], self._draws[number]
-        for agent in np.flatnonzero(chosen):
+        for agent in map(int, np.flatnonzero(chosen)):
             rows[agent] = term.draw(self._stream(term.name, agent, self._numbers[number, agent]), rows.shape[1])
 
     def _stream(self, term: str, agent: int, number: int) -> np.random.Generator:
         return stream(self._seed, *self._agents.keys[agent], term, int(number))
-
-    def _orders(self, drawn: Sequence[Mask], chosen: Mask, resets: bool) -> list[_Order]:
-        """What puts the draws into effect, one call for each set of robots that take arrays together."""
-        orders: list[_Order] = []
-        for kind in ("joint", "link"):
-            terms = [(number, term) for number, term in enumerate(self.terms)
-                     if isinstance(term, NumberTerm) and term.kind == kind]
-            touched = chosen & np.any([drawn[number] | resets for number, _ in terms] or [np.zeros(len(chosen), bool)], axis=0)
-            orders += [self._numbers_order(kind, terms, *part) for part in self._agents.parts(touched)]
-        for number, term in enumerate(self.terms):
-            if isinstance(term, (KickTerm, PushTerm)):
-                orders += [self._push_order(term, self._draws[number], *part) for part in self._agents.parts(drawn[number])]
-        return orders
-
-    def _numbers_order(self, kind: str, terms: list[tuple[int, NumberTerm]], robots: Robots, rows: Rows) -> _Order:
-        """Sets all numbers of a kind that terms are about: the file's, with the terms applied one after the other."""
-        own, parts = numbers_of(robots, kind), parts_of(robots, kind)
-        about: dict[str, list[str]] = {}  # the parts, by the parameter
-        for number, term in terms:
-            about.setdefault(term.parameter, []).extend(name for name, _ in self._columns[number])
-        touched = [part for part in parts if any(part in some for some in about.values())]
-        places = [parts.index(part) for part in touched]
-        values: dict[str, Floats] = {}
-        for parameter, some in about.items():
-            now, of_file = (array[..., places].reshape(len(rows), -1) for array in (own[parameter], own.of_file(parameter)))
-            values[parameter] = np.where([part in some for part in touched], of_file, now)
-        for number, term in terms:
-            array, mine = values[term.parameter], [touched.index(part) for part, _ in self._columns[number]]
-            array[:, mine] = term.applied(array[:, mine], self._draws[number][rows])
-        shaped = {parameter: array.reshape(*robots._rows, len(touched)) for parameter, array in values.items()}
-        return robots, lambda: own.set(touched, **shaped)
-
-    def _push_order(self, term: Term, draws: Floats, robots: Robots, rows: Rows) -> _Order:
-        shaped = draws[rows].reshape(*robots._rows, 6)
-        if isinstance(term, PushTerm):
-            ticks = max(1, round(term.duration / self._agents.dt))
-            return robots, lambda: robots.apply_wrench(shaped, term.link, ticks=ticks)
-        return robots, lambda: setattr(robots, "twist", robots.twist + shaped)
-
-    def _obey(self, orders: list[_Order]) -> None:
-        """Gives the orders; if one is refused, none has an effect. A single one takes care of that itself."""
-        several = len(orders) > 1 or any(robots.simulation._shape for robots, _ in orders)
-        saves = self._agents.saves([robots for robots, _ in orders]) if several else []
-        try:
-            for _, order in orders:
-                order()
-        except RobossError:
-            for simulation, save in saves:
-                simulation.restore(save)
-            raise
 
 
 def _checked(terms: Iterable[Term]) -> list[Term]:
     given = listed("terms", terms)
     names: set[str] = set()
     for term in given:
-        instance("terms", term, Term, "give what joint, link, kick, push, noise and latency make")
+        if not isinstance(term, Term):
+            raise ArgumentError(f"terms: {term!r}", "give what joint, link, kick, push, noise and latency make", "bad-type")
         if term.name in names or "/" in term.name or not term.name:
             raise ArgumentError(f"a term called '{term.name}'", "give each a name of its own, without '/': name=...", "name-taken")
         names.add(term.name)
