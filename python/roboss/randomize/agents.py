@@ -55,11 +55,13 @@ class Agents:
     def parts(self, chosen: Mask) -> Iterator[tuple[Robots, Rows]]:
         """Robots that take arrays together, and the numbers of their agents."""
         if self._whole is not None and chosen.all():
+            self._whole._check_current()
             yield self._whole, np.arange(self.count)
             return
         for member, first, last in zip(self.members, self._first, self._first[1:]):
             rows = np.flatnonzero(chosen[first:last])
             if rows.size:
+                member._check_current()
                 yield member if rows.size == last - first else member[rows], first + rows
 
     def mask(self, agents: Optional[ArrayLike]) -> Mask:

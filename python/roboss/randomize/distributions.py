@@ -30,8 +30,8 @@ class Distribution(ABC):
         return None if self.low.ndim == 0 else len(self.low)
 
     @abstractmethod
-    def sample(self, stream: np.random.Generator, columns: int) -> Floats:
-        """Draws a row, (columns,)."""
+    def sample(self, stream: np.random.Generator, rows: int, columns: int) -> Floats:
+        """Draws some rows, one after the other, (rows, columns)."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -39,8 +39,8 @@ class _Uniform(Distribution):
     low: Floats
     high: Floats
 
-    def sample(self, stream: np.random.Generator, columns: int) -> Floats:
-        return np.minimum(self.low + (self.high - self.low) * stream.random(columns), self.high)
+    def sample(self, stream: np.random.Generator, rows: int, columns: int) -> Floats:
+        return np.minimum(self.low + (self.high - self.low) * stream.random((rows, columns)), self.high)
 
 
 @dataclass(frozen=True, eq=False)
@@ -48,8 +48,8 @@ class _LogUniform(Distribution):
     low: Floats
     high: Floats
 
-    def sample(self, stream: np.random.Generator, columns: int) -> Floats:
-        exponent = np.log(self.high / self.low) * stream.random(columns)
+    def sample(self, stream: np.random.Generator, rows: int, columns: int) -> Floats:
+        exponent = np.log(self.high / self.low) * stream.random((rows, columns))
         return np.clip(self.low * np.exp(exponent), self.low, self.high)
 
 
@@ -60,8 +60,8 @@ class _Normal(Distribution):
     low: Floats
     high: Floats
 
-    def sample(self, stream: np.random.Generator, columns: int) -> Floats:
-        return np.clip(self.mean + self.std * stream.standard_normal(columns), self.low, self.high)
+    def sample(self, stream: np.random.Generator, rows: int, columns: int) -> Floats:
+        return np.clip(self.mean + self.std * stream.standard_normal((rows, columns)), self.low, self.high)
 
 
 @dataclass(frozen=True, eq=False)
@@ -71,8 +71,8 @@ class _Choice(Distribution):
     low: Floats
     high: Floats
 
-    def sample(self, stream: np.random.Generator, columns: int) -> Floats:
-        return self.values[np.searchsorted(self.bounds, stream.random(columns), side="right")]
+    def sample(self, stream: np.random.Generator, rows: int, columns: int) -> Floats:
+        return self.values[np.searchsorted(self.bounds, stream.random((rows, columns)), side="right")]
 
 
 def uniform(low: ArrayLike, high: ArrayLike) -> Distribution:

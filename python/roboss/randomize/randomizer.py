@@ -13,7 +13,7 @@ from ..padded import PaddedRobots
 from ..robots import Robots
 from .agents import Agents, Mask, Rows
 from .effects import Draw, obey, orders_of
-from .streams import stream
+from .streams import ROWS, stream
 from .terms import Columns, LatencyTerm, NoiseTerm, Term
 
 Floats = NDArray[np.float64]
@@ -131,6 +131,8 @@ class Randomizer:
         self._begun = np.zeros(self._agents.count, dtype=bool)
         self._draws = [np.full((self._agents.count, len(columns)), np.nan) for columns in self._columns]
         self._past: Optional[Floats] = None
+        self._block = np.full(shape, -1, dtype=np.int64)  # of each agent in the following
+        self._blocks = [np.empty((self._agents.count, ROWS, len(columns))) for columns in self._columns]
 
     def reset(self, agents: Optional[ArrayLike] = None) -> None:
         """Begins an episode of these robots: draws what is drawn then, and puts all numbers into effect, also those of the
@@ -290,17 +292,19 @@ class Randomizer:
         least, most = term.when
         self._waits[number, chosen] += 1
         for agent in map(int, np.flatnonzero(chosen)):
-            share = self._stream(f"{term.name}/when", agent, self._waits[number, agent]).random()
+            share = self._stream(f"{term.name}/when", agent, int(self._waits[number, agent])).random()
             self._due[number, agent] = since[agent] + max(1, round((least + (most - least) * share) / self._agents.dt))
 
     def _fill(self, number: int, chosen: Mask) -> None:
         """What these agents draw, by the numbers of their draws."""
-        term, rows = self.terms[number], self._draws[number]
-        for agent in map(int, np.flatnonzero(chosen)):
-            rows[agent] = term.draw(self._stream(term.name, agent, self._numbers[number, agent]), rows.shape[1])
+        term, blocks, (block, row) = self.terms[number], self._blocks[number], np.divmod(self._numbers[number], ROWS)
+        for agent in map(int, np.flatnonzero(chosen & (block != self._block[number]))):
+            blocks[agent] = term.draw(self._stream(term.name, agent, int(block[agent])), *blocks.shape[1:])
+            self._block[number, agent] = block[agent]
+        self._draws[number][chosen] = blocks[chosen, row[chosen]]
 
-    def _stream(self, term: str, agent: int, number: int) -> np.random.Generator:
-        return stream(self._seed, *self._agents.keys[agent], term, int(number))
+    def _stream(self, term: str, agent: int, block: int) -> np.random.Generator:
+        return stream(self._seed, *self._agents.keys[agent], term, block)
 
 
 def _checked(terms: Iterable[Term]) -> list[Term]:

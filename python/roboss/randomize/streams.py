@@ -15,21 +15,24 @@ from .distributions import choice
 _T = TypeVar("_T")
 
 
-def stream(seed: int, simulation: int, robot: str, term: str, number: int) -> np.random.Generator:
-    """The numbers of one draw of a Randomizer.
+ROWS = 16  #: draws of a stream
 
-    It is numpy's Philox with the counter [0, number, 0, 0]. Its key is the BLAKE2b of 16 bytes of the JSON text
+
+def stream(seed: int, simulation: int, robot: str, term: str, block: int) -> np.random.Generator:
+    """The random numbers of 16 draws of a Randomizer, one after the other: draws 16 * block to 16 * block + 15.
+
+    It is numpy's Philox with the counter [0, block, 0, 0]. Its key is the BLAKE2b of 16 bytes of the JSON text
     `[seed, simulation, "robot", "term"]`, as two integers, low byte first.
 
     Args:
         simulation: place of the simulation in its Batch; 0 of a Simulation.
         robot: its name in the world.
         term: its name; "NAME/when" of the intervals of a term.
-        number: of the draw, from 0 on.
+        block: from 0 on.
     """
     text = json.dumps([seed, simulation, robot, term]).encode()
     key = np.frombuffer(hashlib.blake2b(text, digest_size=16).digest(), dtype="<u8")
-    return np.random.Generator(np.random.Philox(key=key, counter=[0, number, 0, 0]))
+    return np.random.Generator(np.random.Philox(key=key, counter=[0, block, 0, 0]))
 
 
 def pick(items: Sequence[_T], count: int, *, seed: int = 0, weights: Optional[ArrayLike] = None) -> list[_T]:
@@ -50,4 +53,4 @@ def pick(items: Sequence[_T], count: int, *, seed: int = 0, weights: Optional[Ar
         raise ArgumentError("no items to pick from", "give one or more", "no-items")
     places = choice(np.arange(len(things)), weights)
     seed = whole("seed", seed)
-    return [things[int(places.sample(stream(seed, number, "", "pick", 0), 1)[0])] for number in range(whole("count", count))]
+    return [things[int(places.sample(stream(seed, number, "", "pick", 0), 1, 1)[0, 0])] for number in range(whole("count", count))]

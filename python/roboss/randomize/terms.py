@@ -50,9 +50,9 @@ class Term(ABC):
         """Whether all columns get one and the same number."""
         return False
 
-    def draw(self, numbers: np.random.Generator, columns: int) -> Floats:
-        """What a robot gets, (columns,) or (1,) for all."""
-        return self.distribution.sample(numbers, 1 if self.shared else columns)
+    def draw(self, numbers: np.random.Generator, rows: int, columns: int) -> Floats:
+        """What a robot gets in some draws, (rows, columns), or (rows, 1) for all columns."""
+        return self.distribution.sample(numbers, rows, 1 if self.shared else columns)
 
     @abstractmethod
     def columns(self, robots: Robots, observation: Optional[int]) -> Columns:
@@ -138,8 +138,8 @@ class NoiseTerm(Term):
 class LatencyTerm(Term):
     """How many steps later an action is carried out."""
 
-    def draw(self, numbers: np.random.Generator, columns: int) -> Floats:
-        return np.rint(self.distribution.sample(numbers, columns))
+    def draw(self, numbers: np.random.Generator, rows: int, columns: int) -> Floats:
+        return np.rint(self.distribution.sample(numbers, rows, columns))
 
     def columns(self, robots: Robots, observation: Optional[int]) -> Columns:
         return [("latency", "steps")]
