@@ -63,6 +63,8 @@ class Task(ABC):
             the observation, latency of actions. `randomizer` has what was drawn.
     """
 
+    randomizer: Optional[Randomizer] = None  #: of the agents' robots, with the seed of the environment's reset
+
     def __init__(self, world: World, names: tuple[str, ...], observation_space: gymnasium.spaces.Box,
                  action_space: gymnasium.spaces.Box, *, worlds: int = 1, threads: Optional[int] = None, ticks: int = 25,
                  episode_steps: int = 1200, randomize: Iterable[Term] = ()):
@@ -78,12 +80,9 @@ class Task(ABC):
         self._robots_of = [simulation.robots(self.names) for simulation in self.simulations]
         self.present: Mask = np.zeros(self.count, dtype=bool)  #: who is in the world
         self.age = np.zeros(self.count, dtype=np.int64)  #: steps since each agent's start
-        #: of the robots, None without terms; its seed is that of the environment's reset
-        self.randomizer: Optional[Randomizer] = self._randomizer_of(listed("randomize", randomize))
-
-    def _randomizer_of(self, terms: list[Term]) -> Optional[Randomizer]:
-        shape = self.observation_space.shape
-        return Randomizer(self.robots, terms, observation_columns=shape[0] if len(shape) == 1 else None) if terms else None
+        if terms := listed("randomize", randomize):
+            shape = observation_space.shape
+            self.randomizer = Randomizer(self.robots, terms, observation_columns=shape[0] if len(shape) == 1 else None)
 
     @property
     def count(self) -> int:
@@ -117,10 +116,14 @@ class Task(ABC):
     def start(self, agents: Mask, rng: np.random.Generator) -> None:
         """Begins a new episode of these agents; all others go on."""
         self.age[agents] = 0
+        self._begin(agents, rng)
+        self.present |= agents
+
+    def _begin(self, agents: Mask, rng: np.random.Generator) -> None:
+        """Places these agents, and draws what is drawn at the start of an episode."""
         self.place(agents, rng)
         if self.randomizer is not None:
             self.randomizer.reset(agents)
-        self.present |= agents
 
     def leave(self, agents: Mask) -> None:
         """Takes these agents out of the world."""
@@ -133,11 +136,7 @@ class Task(ABC):
         Raises:
             StateError: as Simulation.step.
         """
-        wanted = np.asarray(actions, dtype=np.float64)
-        if self.randomizer is not None:
-            self.randomizer.update(self.present)
-            wanted = self.randomizer.delayed(wanted)
-        self.act(wanted)
+        self._give(np.asarray(actions, dtype=np.float64))
         if self.worlds == 1:
             self.simulation.step(self.ticks)
         else:
@@ -147,6 +146,13 @@ class Task(ABC):
         rewards, terminated, infos = self.outcome(rng)
         truncated = self.present & ~terminated & (self.age >= self.episode_steps)
         return Outcome(rewards, terminated, truncated, infos)
+
+    def _give(self, actions: NDArray[np.float64]) -> None:
+        """Orders the actions, or those whose latency is over, and gives the kicks and pushes that are due."""
+        if self.randomizer is not None:
+            self.randomizer.update(self.present)
+            actions = self.randomizer.delayed(actions)
+        self.act(actions)
 
     def rows_of(self, values: NDArray[Any]) -> NDArray[Any]:
         """An array of `robots`, (N, ...) of one world or (worlds, N, ...) of several, with one row for each agent: (count, ...)."""
