@@ -19,8 +19,12 @@ from roboss.analysis.command import main as analysis
 REPOSITORY = Path(__file__).resolve().parents[2]
 ROBOSS = REPOSITORY / "build" / "release" / "bin" / "roboss"
 #: Pages whose Python runs as it stands, one block after the other.
-PAGES = ["README.md", "docs/python.md", "docs/learning.md", "docs/older-systems.md",
+PAGES = ["README.md", "docs/python.md", "docs/learning.md", "docs/randomization.md", "docs/older-systems.md",
          "docs/from-isaac-lab-mujoco-gymnasium.md"]
+#: Until Robots.link_parameters is there: remove this with its two uses.
+LINKS = hasattr(roboss.Robots, "link_parameters")
+if not LINKS:
+    PAGES.remove("docs/randomization.md")
 BLOCK = re.compile(r"^```python\n(.*?)^```", re.DOTALL | re.MULTILINE)
 
 

@@ -3,9 +3,10 @@ import numpy as np
 import pytest
 
 import roboss
+from conftest import LINKS
 from roboss.randomize import Randomizer, joint, link, normal, uniform
 
-pytestmark = pytest.mark.skipif(not hasattr(roboss.Robots, "link_parameters"), reason="Robots.link_parameters is not there yet")
+pytestmark = pytest.mark.skipif(not LINKS, reason="Robots.link_parameters is not there yet")
 
 BOXES = """<sdf version="1.9"><world name="boxes"><gravity>0 0 -9.81</gravity>{}</world></sdf>"""
 BOX = """<model name="box_{0}"><pose>0 {0} .1 0 0 0</pose><link name="body">
@@ -41,11 +42,16 @@ def test_a_payload_is_added_to_the_mass_of_the_file_and_weighs():
 
 def test_friction_is_that_of_links_with_shapes_and_slows_a_box_as_coulomb_says():
     robots = boxes()
-    randomizer = Randomizer(robots, [link(name, uniform(0.2, 0.6), name=name) for name in ("friction", "friction_across")], seed=2)
+    randomizer = Randomizer(robots, [link("friction", uniform(0.2, 0.6))], seed=2)
     randomizer.reset()
     own, body, flag = robots.link_parameters, robots.links.index("body"), robots.links.index("flag")
-    assert np.array_equal(own["friction"][:, body], randomizer.drawn["friction"][:, body])
-    assert np.isnan(own["friction"][:, flag]).all() and np.isfinite(randomizer.drawn["friction"]).all()
+    friction = randomizer.drawn["link_friction"][:, body]
+    assert np.array_equal(own["friction"][:, body], friction)
+    assert np.isnan(own["friction"][:, flag]).all() and np.isfinite(randomizer.drawn["link_friction"]).all()
+    own["friction_across"] = own["friction"]
+    robots.twist = [1, 0, 0, 0, 0, 0]
+    robots.simulation.step(round(0.1 / robots.simulation.dt))
+    assert np.allclose(robots.twist[:, 0], 1 - 9.81 * 0.1 * friction, atol=1e-3)
     shared = Randomizer(robots, [link("friction", uniform(0.2, 0.6), shared=True)], seed=3)
     shared.reset()
     drawn = shared.drawn["link_friction"]
