@@ -169,7 +169,8 @@ class Randomizer:
         Raises ArgumentError (code "bad-shape") for other shapes.
         """
         given = np.asarray(observations)
-        out = np.array(self._agents.rows("observations", given))
+        rows = self._agents.rows("observations", given)
+        out = np.array(rows, dtype=np.result_type(rows.dtype, np.float32))
         for term, draws in zip(self.terms, self._draws):
             if isinstance(term, NoiseTerm):
                 self._check_begun(np.ones(self._agents.count, dtype=bool))

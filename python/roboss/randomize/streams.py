@@ -22,7 +22,7 @@ def stream(seed: int, simulation: int, robot: str, term: str, block: int) -> np.
     """The random numbers of 16 draws of a Randomizer, one after the other: draws 16 * block to 16 * block + 15.
 
     It is numpy's Philox with the counter [0, block, 0, 0]. Its key is the BLAKE2b of 16 bytes of the JSON text
-    `[seed, simulation, "robot", "term"]`, read as an integer with the low byte first.
+    `json.dumps([seed, simulation, robot, term])`, read as an integer with the low byte first.
 
     Args:
         simulation: place of the simulation in its Batch; 0 of a Simulation.
