@@ -105,6 +105,21 @@ def test_a_latency_delays_what_the_cars_do():
         assert (speeds[steps == 0] > 1).all() and (speeds[steps == 3] > 1).all() == (step == 3)
 
 
+def test_agents_that_are_out_are_not_kicked():
+    env = envs.CityVectorEnv(12, threads=1, autoreset_mode="Disabled",
+                             randomize=[randomize.kick(randomize.uniform(0, [1, 1, 0, 0, 0, 1]), when=0.1)])
+    env.reset(seed=1)
+    while env.task.present.all():
+        env.step(ahead(env))
+    out, draws = ~env.task.present, env.task.randomizer.save().draws[0]
+    places = env.task.robots.pose[out]
+    for _ in range(6):
+        env.step(0 * ahead(env))
+    more = env.task.randomizer.save().draws[0] - draws
+    assert (more[out] == 0).all() and (more[env.task.present] == 3).all()
+    assert np.allclose(env.task.robots.pose[out], places, atol=0.01)
+
+
 def test_noise_is_in_the_observation_and_not_in_the_world():
     found = []
     for terms in ([], [randomize.noise(randomize.normal(0, 0.05), columns=[21, 22])]):
