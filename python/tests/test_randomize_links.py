@@ -74,6 +74,21 @@ def test_links_and_joints_in_one_list_and_nothing_changes_if_one_is_refused():
     assert robots.simulation.state_hash == before and not refused.begun
 
 
+def test_numbers_that_no_term_is_about_stay():
+    robots = boxes()
+    own = robots.link_parameters
+    own.set("body", centre_z=0.03)
+    terms = [link("mass", uniform(2, 3), "scale", links="body"), link("inertia_xx", uniform(1, 2), "scale", links="flag")]
+    randomizer = Randomizer(robots, terms, seed=5)
+    randomizer.reset()
+    body, flag = robots.links.index("body"), robots.links.index("flag")
+    factor = randomizer.drawn["link_mass"][:, 0]
+    assert (own["centre_z"][:, body] == 0.03).all() and np.array_equal(own["mass"][:, flag], own.of_file("mass")[:, flag])
+    for name in ("inertia_xx", "inertia_yy", "inertia_zz"):                              # in proportion to the mass
+        assert np.allclose(own[name][:, body], own.of_file(name)[:, body] * factor, rtol=1e-12)
+    assert np.allclose(own["inertia_xx"][:, flag], own.of_file("inertia_xx")[:, flag] * randomizer.drawn["link_inertia_xx"][:, 0])
+
+
 def test_unknown_numbers_and_links_are_refused():
     robots = boxes()
     for term in (link("weight", uniform(0, 1)), link("mass", uniform(0, 1), links="mast")):

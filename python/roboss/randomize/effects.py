@@ -59,7 +59,10 @@ def obey(orders: list[Order]) -> None:
 
 
 def _numbers_order(kind: str, draws: list[tuple[Draw, NumberTerm]], robots: Robots, agents: Rows) -> Order:
-    """Sets all numbers of a kind that terms are about: the file's, with the terms applied one after the other."""
+    """Sets all numbers of a kind that terms are about: the file's, with the terms applied one after the other.
+
+    Others stay: of joints what they have is set again, of links NaN leaves it, as an inertia that follows its mass.
+    """
     own, parts = numbers_of(robots, kind), parts_of(robots, kind)
     about: dict[str, list[str]] = {}  # the parts, by the parameter
     for draw, term in draws:
@@ -68,8 +71,9 @@ def _numbers_order(kind: str, draws: list[tuple[Draw, NumberTerm]], robots: Robo
     places = [parts.index(part) for part in touched]
     values: dict[str, Floats] = {}
     for parameter, some in about.items():
-        now, of_file = (array[..., places].reshape(len(agents), -1) for array in (own[parameter], own.of_file(parameter)))
-        values[parameter] = np.where([part in some for part in touched], of_file, now)
+        of_file = own.of_file(parameter)[..., places].reshape(len(agents), -1)
+        others = own[parameter][..., places].reshape(of_file.shape) if kind == "joint" else np.nan
+        values[parameter] = np.where([part in some for part in touched], of_file, others)
     for draw, term in draws:
         array, mine = values[term.parameter], [touched.index(part) for part, _ in draw.columns]
         array[:, mine] = term.applied(array[:, mine], draw.rows[agents])
