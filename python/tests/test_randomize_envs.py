@@ -1,4 +1,4 @@
-"""`randomize=` of the environments: exact with a seed, in effect, and single agents start again with draws of their own."""
+"""`randomize=` of the environments: exact with a seed, in effect; single agents start again with draws of their own."""
 import pickle
 
 import gymnasium
@@ -32,7 +32,8 @@ def run(env, steps=30):
     return seen, env.state_hashes
 
 
-@pytest.mark.parametrize("make", [lambda **o: envs.CityVectorEnv(6, worlds=2, **o), lambda **o: envs.SoccerVectorEnv(4, cars=1, **o),
+@pytest.mark.parametrize("make", [lambda **o: envs.CityVectorEnv(6, worlds=2, **o),
+                                  lambda **o: envs.SoccerVectorEnv(4, cars=1, **o),
                                   lambda **o: envs.WarehouseVectorEnv(4, **o)])
 def test_a_seed_repeats_everything(make):
     found = []
@@ -152,8 +153,8 @@ def test_checkers_of_gymnasium_and_pettingzoo_accept_it():
 
 
 def test_terms_that_do_not_fit_are_refused_when_it_is_made():
-    for terms in ([randomize.joint("dampin", randomize.uniform(0, 1))], [randomize.noise(randomize.normal(0, 1), columns=[29])],
-                  "damping", [1]):
+    for terms in ([randomize.joint("dampin", randomize.uniform(0, 1))],
+                  [randomize.noise(randomize.normal(0, 1), columns=[29])], "damping", [1]):
         with pytest.raises((roboss.ArgumentError, roboss.UnknownNameError)) as refused:
             envs.CityVectorEnv(2, threads=1, randomize=terms)
         assert refused.value.remedy

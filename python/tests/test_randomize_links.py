@@ -14,7 +14,8 @@ BOX = """<model name="box_{0}"><pose>0 {0} .1 0 0 0</pose><link name="body">
   <collision name="c"><geometry><box><size>.2 .2 .2</size></box></geometry></collision></link>
   <link name="flag"><pose>0 0 .3 0 0 0</pose>
   <inertial><mass>.1</mass><inertia><ixx>.001</ixx><iyy>.001</iyy><izz>.001</izz></inertia></inertial></link>
-  <joint name="pole" type="revolute"><parent>body</parent><child>flag</child><axis><xyz>0 0 1</xyz></axis></joint></model>"""
+  <joint name="pole" type="revolute"><parent>body</parent><child>flag</child>
+    <axis><xyz>0 0 1</xyz></axis></joint></model>"""
 
 
 def boxes(count=4):
@@ -60,7 +61,8 @@ def test_friction_is_that_of_links_with_shapes_and_slows_a_box_as_coulomb_says()
 
 def test_links_and_joints_in_one_list_and_nothing_changes_if_one_is_refused():
     robots = boxes()
-    terms = [joint("damping", uniform(0, 0.01)), link("mass", uniform(0.8, 1.2), "scale"), link("centre_x", normal(0, 0.005), "add")]
+    terms = [joint("damping", uniform(0, 0.01)), link("mass", uniform(0.8, 1.2), "scale"),
+             link("centre_x", normal(0, 0.005), "add")]
     randomizer = Randomizer(robots, terms, seed=4)
     randomizer.reset()
     own = robots.link_parameters
@@ -78,15 +80,17 @@ def test_numbers_that_no_term_is_about_stay():
     robots = boxes()
     own = robots.link_parameters
     own.set("body", centre_z=0.03)
-    terms = [link("mass", uniform(2, 3), "scale", links="body"), link("inertia_xx", uniform(1, 2), "scale", links="flag")]
+    terms = [link("mass", uniform(2, 3), "scale", links="body"),
+             link("inertia_xx", uniform(1, 2), "scale", links="flag")]
     randomizer = Randomizer(robots, terms, seed=5)
     randomizer.reset()
     body, flag = robots.links.index("body"), robots.links.index("flag")
-    factor = randomizer.drawn["link_mass"][:, 0]
-    assert (own["centre_z"][:, body] == 0.03).all() and np.array_equal(own["mass"][:, flag], own.of_file("mass")[:, flag])
+    factor, of_flag = randomizer.drawn["link_mass"][:, 0], randomizer.drawn["link_inertia_xx"][:, 0]
+    assert (own["centre_z"][:, body] == 0.03).all()
+    assert np.array_equal(own["mass"][:, flag], own.of_file("mass")[:, flag])
     for name in ("inertia_xx", "inertia_yy", "inertia_zz"):                              # in proportion to the mass
         assert np.allclose(own[name][:, body], own.of_file(name)[:, body] * factor, rtol=1e-12)
-    assert np.allclose(own["inertia_xx"][:, flag], own.of_file("inertia_xx")[:, flag] * randomizer.drawn["link_inertia_xx"][:, 0])
+    assert np.allclose(own["inertia_xx"][:, flag], own.of_file("inertia_xx")[:, flag] * of_flag)
 
 
 def test_unknown_numbers_and_links_are_refused():

@@ -54,8 +54,8 @@ class SoccerTask(Task):
         world = soccer_world(names)
         one = np.ones(12 + 2 * (2 * cars - 1), dtype=np.float32)
         super().__init__(world, names, gymnasium.spaces.Box(-one, one), gymnasium.spaces.Box(-one[:2], one[:2]),
-                         worlds=worlds, threads=threads, ticks=round(step_s / world.dt), episode_steps=round(match_s / step_s),
-                         randomize=randomize)
+                         worlds=worlds, threads=threads, ticks=round(step_s / world.dt),
+                         episode_steps=round(match_s / step_s), randomize=randomize)
         self._team = cars
         self._side = np.tile(np.repeat([1.0, -1.0], cars), worlds)  # towards +x or -x
         self._others_of = _others_of_each(cars)

@@ -59,8 +59,8 @@ class Task(ABC):
         threads: that step; None: one for each core that this process may use. No bit depends on it.
         ticks: time steps of the world in a step of the environment.
         episode_steps: an episode is truncated after this number of steps.
-        randomize: terms of roboss.randomize for the agents' robots: numbers of joints and links, kicks, pushes, noise of
-            the observation, latency of actions. `randomizer` has what was drawn.
+        randomize: terms of roboss.randomize for the agents' robots: numbers of joints and links, kicks, pushes, noise
+            of the observation, latency of actions. `randomizer` has what was drawn.
     """
 
     randomizer: Optional[Randomizer] = None  #: of the agents' robots, with the seed of the environment's reset

@@ -1,4 +1,4 @@
-"""Domain randomisation: what is drawn for each robot, from which distribution, and when. The page is docs/randomization.md.
+"""Domain randomisation: what is drawn for each robot, from which distribution, and when: docs/randomization.md.
 
     >>> from roboss import randomize
     >>> terms = [
@@ -10,8 +10,8 @@
     >>> batch = roboss.Batch(roboss.example("crossroads.sdf"), 4)
     >>> randomizer = randomize.Randomizer(batch.robots("car_*"), terms, seed=1)
     >>> randomizer.reset()
-    >>> randomizer.drawn["joint_friction"].shape, randomizer.columns("joint_friction"), randomizer.units("joint_friction")[0]
-    ((4, 16, 2), ('front_left', 'front_right'), 'N m')
+    >>> randomizer.drawn["joint_friction"].shape, randomizer.columns("joint_friction")
+    ((4, 16, 2), ('front_left', 'front_right'))
 
 | term | draws |
 |---|---|
@@ -29,5 +29,5 @@ from .randomizer import Randomizer, RandomizerSave
 from .streams import pick, stream
 from .terms import Term, joint, kick, latency, link, noise, push
 
-__all__ = ["Distribution", "Randomizer", "RandomizerSave", "Term", "choice", "joint", "kick", "latency", "link", "log_uniform",
-           "noise", "normal", "pick", "push", "stream", "uniform"]
+__all__ = ["Distribution", "Randomizer", "RandomizerSave", "Term", "choice", "joint", "kick", "latency", "link",
+           "log_uniform", "noise", "normal", "pick", "push", "stream", "uniform"]

@@ -1,4 +1,4 @@
-"""Agents: the robots of a Simulation or Batch in one row, simulation by simulation, with the names that their draws go by."""
+"""Agents: the robots of a Simulation or Batch in one row, with the names that their draws go by."""
 from __future__ import annotations
 
 from typing import Any, Iterator, Optional, Union
@@ -75,15 +75,16 @@ class Agents:
             if given.shape == self._mask.shape[:given.ndim] and given.ndim:
                 given = given.reshape(given.shape + (1,) * (self._mask.ndim - given.ndim))
                 return np.broadcast_to(given, self._mask.shape)[self._mask]
-        raise ArgumentError(f"agents: an array of {given.dtype}, {given.shape}", f"give an array of bool, {self._mask.shape}; or None",
-                            "bad-mask")
+        raise ArgumentError(f"agents: an array of {given.dtype}, {given.shape}",
+                            f"give an array of bool, {self._mask.shape}; or None", "bad-mask")
 
     def rows(self, what: str, values: NDArray[Any]) -> NDArray[Any]:
         """Values by agent, (agents, ...), of those as the robots' arrays have them, or of those by agent."""
         if values.ndim > self._mask.ndim and values.shape[:self._mask.ndim] == self._mask.shape:
             return values[self._mask]
         if values.ndim < 2 or len(values) != self.count:
-            raise ArgumentError(f"{what} of shape {values.shape}", f"give {self._mask.shape} rows, of one or more columns", "bad-shape")
+            raise ArgumentError(f"{what} of shape {values.shape}",
+                                f"give {self._mask.shape} rows, of one or more columns", "bad-shape")
         return values
 
     def shaped(self, rows: NDArray[Any], like: NDArray[Any]) -> NDArray[Any]:

@@ -95,14 +95,16 @@ def log_uniform(low: ArrayLike, high: ArrayLike) -> Distribution:
 
 
 def normal(mean: ArrayLike, std: ArrayLike, low: ArrayLike = -np.inf, high: ArrayLike = np.inf) -> Distribution:
-    """The normal distribution of this mean and standard deviation. What falls below `low` becomes `low`, what falls above
-    `high` becomes `high`. Numbers, or (columns,) for each column its own.
+    """The normal distribution of this mean and standard deviation. What falls below `low` becomes `low`, what falls
+    above `high` becomes `high`. Numbers, or (columns,) for each column its own.
 
-    Raises ArgumentError (code "bad-distribution") for a deviation below 0, numbers that are not finite, `low` above `high`.
+    Raises ArgumentError (code "bad-distribution") for a deviation below 0, numbers that are not finite, and a `low`
+    above `high`.
     """
     middle, width, least, most = _rows("normal", mean, std, low, high)
     if not (np.isfinite(middle).all() and np.isfinite(width).all() and (width >= 0).all()):
-        raise _refused(f"normal with mean {middle.tolist()} and std {width.tolist()}", "give finite numbers, and a std of 0 or more")
+        raise _refused(f"normal with mean {middle.tolist()} and std {width.tolist()}",
+                       "give finite numbers, and a std of 0 or more")
     if not (least <= most).all():
         raise _refused(f"normal from {least.tolist()} to {most.tolist()}", "give a `low` that is not above `high`")
     return _Normal(middle, width, least, most)
@@ -111,8 +113,8 @@ def normal(mean: ArrayLike, std: ArrayLike, low: ArrayLike = -np.inf, high: Arra
 def choice(values: ArrayLike, weights: Optional[ArrayLike] = None) -> Distribution:
     """One of the values, (values,), each as often as the others, or in the proportion of these weights, (values,).
 
-    Raises ArgumentError (code "bad-distribution") for no values, values that are not finite, weights that are negative, all
-    zero or of another number.
+    Raises ArgumentError (code "bad-distribution") for no values, values that are not finite, weights that are negative,
+    all zero or of another number.
     """
     given = numbers("choice", values)
     if given.ndim != 1 or not given.size or not np.isfinite(given).all():
@@ -129,7 +131,8 @@ def choice(values: ArrayLike, weights: Optional[ArrayLike] = None) -> Distributi
 def _between(what: str, low: ArrayLike, high: ArrayLike) -> tuple[Floats, Floats]:
     least, most = _rows(what, low, high)
     if not (np.isfinite(least).all() and np.isfinite(most).all() and (least <= most).all()):
-        raise _refused(f"{what} from {least.tolist()} to {most.tolist()}", "give finite bounds, with a `low` that is not above `high`")
+        raise _refused(f"{what} from {least.tolist()} to {most.tolist()}",
+                       "give finite bounds, with a `low` that is not above `high`")
     return least, most
 
 

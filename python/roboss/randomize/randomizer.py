@@ -2,7 +2,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any, Callable, Iterable, Optional, Sequence, Union
+from typing import Any, Callable, Iterable, Optional, Union
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -43,15 +43,15 @@ class RandomizerSave:
 
 
 class Randomizer:
-    """Domain randomisation of some robots. The draws of a robot are functions of the seed, its simulation's place in the
-    Batch, its name, the term's name and how often that was drawn for it, and of nothing else: see `stream`.
+    """Domain randomisation of some robots. The draws of a robot are functions of the seed, its simulation's place in
+    the Batch, its name, the term's name and how often that was drawn for it, and of nothing else: see `stream`.
 
     `reset` begins an episode of all robots or some, behind a reset of the simulation if there is one; `update` comes
     before each step. The constructor changes nothing.
 
     Args:
-        robots: of a Simulation, or of a Batch, also padded; those of a Batch of different worlds have the same joints, or
-            links, in the terms.
+        robots: of a Simulation, or of a Batch, also padded; those of a Batch of different worlds have the same joints,
+            or links, in the terms.
         terms: what `joint`, `link`, `kick`, `push`, `noise` and `latency` make. Names of terms differ.
         seed: of the draws.
         observation_columns: for terms of noise; None: there are none.
@@ -85,7 +85,9 @@ class Randomizer:
         self.robots = robots  #: that are randomised
         self.terms: tuple[Term, ...] = tuple(_checked(terms))  #: what is drawn, in the order in which it applies
         self._agents = Agents(robots)
-        self._observation = None if observation_columns is None else whole("observation_columns", observation_columns, 1)
+        self._observation = observation_columns
+        if observation_columns is not None:
+            self._observation = whole("observation_columns", observation_columns, 1)
         self._columns = [self._columns_of(term) for term in self.terms]
         self._steps = [number for number, term in enumerate(self.terms) if isinstance(term, LatencyTerm)]
         self._most = int(sum(np.rint(self.terms[number].distribution.high.max()) for number in self._steps))  # steps
@@ -109,8 +111,8 @@ class Randomizer:
 
     @property
     def drawn(self) -> dict[str, Floats]:
-        """What was drawn last, by the name of the term: (N, columns), of a Batch (B, N, columns), of padded robots (B, most,
-        columns). NaN: nothing yet. Of a number that is scaled it is the factor, of noise what is added."""
+        """What was drawn last, by the name of the term: (N, columns), of a Batch (B, N, columns), of padded robots
+        (B, most, columns). NaN: nothing yet. Of a number that is scaled it is the factor, of noise what is added."""
         return {term.name: self._agents.arrays(rows) for term, rows in zip(self.terms, self._draws)}
 
     def columns(self, term: str) -> tuple[str, ...]:
@@ -135,16 +137,16 @@ class Randomizer:
         self._blocks = [np.empty((self._agents.count, ROWS, len(columns))) for columns in self._columns]
 
     def reset(self, agents: Optional[ArrayLike] = None) -> None:
-        """Begins an episode of these robots: draws what is drawn then, and puts all numbers into effect, also those of the
-        start. Call it after Simulation.reset or Batch.reset, which take them back, and after poses are set.
+        """Begins an episode of these robots: draws what is drawn then, and puts all numbers into effect, also those of
+        the start. Call it after Simulation.reset or Batch.reset, which take them back, and after poses are set.
 
         Args:
             agents: a mask (N,), of a Batch (B, N) or of its simulations (B,); None: all.
 
         Raises:
-            OrderError: a robot cannot have a number that was drawn. Nothing is changed then, and nothing counts as drawn.
+            OrderError: a robot cannot have a number that was drawn. Nothing is changed then, nothing counts as drawn.
         """
-        self._do(lambda chosen: [self._begin(number, chosen) for number in range(len(self.terms))], self._agents.mask(agents), True)
+        self._do(self._begin, self._agents.mask(agents), True)
 
     def update(self, agents: Optional[ArrayLike] = None) -> None:
         """Draws what is drawn at each step, and what is due by its interval. Call it before each step.
@@ -159,12 +161,12 @@ class Randomizer:
             StateError: one of them was not reset (code "not-reset").
             OrderError: as `reset`.
         """
-        chosen, ticks = self._agents.mask(agents), self._agents.ticks()
+        chosen = self._agents.mask(agents)
         self._check_begun(chosen)
-        self._do(lambda chosen: [self._go_on(number, chosen, ticks) for number in range(len(self.terms))], chosen, False)
+        self._do(self._go_on, chosen, False)
 
     def noisy(self, observations: NDArray[Any]) -> NDArray[Any]:
-        """The observations, (N, columns), (B, N, columns) or (agents, columns), with the noise of this step added: new ones.
+        """The observations, (N, columns), (B, N, columns) or (agents, columns), with the noise of this step added.
 
         Raises ArgumentError (code "bad-shape") for other shapes.
         """
@@ -175,13 +177,14 @@ class Randomizer:
             if isinstance(term, NoiseTerm):
                 self._check_begun(np.ones(self._agents.count, dtype=bool))
                 if out.ndim != 2 or out.shape[1] != self._observation:
-                    raise ArgumentError(f"observations of shape {given.shape}", f"give {self._observation} columns", "bad-shape")
+                    raise ArgumentError(f"observations of shape {given.shape}",
+                                        f"give {self._observation} columns", "bad-shape")
                 out[:, slice(None) if term.places is None else list(term.places)] += draws.astype(out.dtype)
         return self._agents.shaped(out, given)
 
     def delayed(self, actions: ArrayLike) -> Floats:
-        """Takes the actions of this step, (N, ...), (B, N, ...) or (agents, ...), and gives those that are carried out in
-        it: of each robot what it was given its latency before. Before the first one arrives, that is 0.
+        """Takes the actions of this step, (N, ...), (B, N, ...) or (agents, ...), and gives those that are carried out
+        in it: of each robot what it was given its latency before. Before the first one arrives, that is 0.
 
         Raises ArgumentError (code "bad-shape") for other shapes.
         """
@@ -193,7 +196,8 @@ class Randomizer:
         if self._past is None:
             self._past = np.zeros((self._most + 1, *rows.shape))
         if self._past.shape[1:] != rows.shape:
-            raise ArgumentError(f"actions of shape {given.shape}", f"give rows of shape {self._past.shape[2:]}, as before", "bad-shape")
+            raise ArgumentError(f"actions of shape {given.shape}",
+                                f"give rows of shape {self._past.shape[2:]}, as before", "bad-shape")
         self._past[1:] = self._past[:-1].copy()
         self._past[0] = rows
         steps = np.sum([self._draws[number][:, 0] for number in self._steps], axis=0).astype(int)
@@ -236,19 +240,21 @@ class Randomizer:
         count, wanted = 1 if term.shared else len(found[0]), term.distribution.columns
         if wanted not in (None, count):
             raise ArgumentError(f"term '{term.name}': a distribution of {wanted} columns for {count}",
-                                "give numbers, or one for each of " + ", ".join(name for name, _ in found[0][:12]), "wrong-count")
+                                "give numbers, or one for each of " + ", ".join(name for name, _ in found[0][:12]),
+                                "wrong-count")
         return found[0]
 
     def _check_begun(self, chosen: Mask) -> None:
         if not self._begun[chosen].all():
             raise StateError("robots that were not reset", "call reset() first", "not-reset")
 
-    def _do(self, draw: Callable[[Mask], Sequence[Mask]], chosen: Mask, resets: bool) -> None:
-        """Draws, and puts it into effect; or leaves everything as it was."""
+    def _do(self, draw: Callable[[int, Mask, Rows], Mask], chosen: Mask, resets: bool) -> None:
+        """Draws all terms, and puts them into effect; or leaves everything as it was."""
         before = (self._numbers.copy(), self._waits.copy(), self._due.copy(), self._begun.copy(),
                   [rows.copy() for rows in self._draws])
         try:
-            drawn = draw(chosen)
+            ticks = self._agents.ticks()
+            drawn = [draw(number, chosen, ticks) for number in range(len(self.terms))]
             self._begun |= chosen
             obey(orders_of(self._agents, [Draw(*one) for one in zip(self.terms, self._columns, self._draws, drawn)],
                            chosen if resets else None))
@@ -258,11 +264,11 @@ class Randomizer:
         if resets and self._past is not None:
             self._past[:, chosen] = 0
 
-    def _begin(self, number: int, chosen: Mask) -> Mask:
+    def _begin(self, number: int, chosen: Mask, ticks: Rows) -> Mask:
         """Draws a term at the start of an episode. Returns for which agents."""
         term = self.terms[number]
         if isinstance(term.when, tuple):
-            self._wait(number, chosen, self._agents.ticks())
+            self._wait(number, chosen, ticks)
             chosen = chosen & ~np.bool_(term.acts)
         elif term.when == "start":
             chosen = chosen & (self._numbers[number] < 0)
@@ -313,9 +319,11 @@ def _checked(terms: Iterable[Term]) -> list[Term]:
     names: set[str] = set()
     for term in given:
         if not isinstance(term, Term):
-            raise ArgumentError(f"terms: {term!r}", "give what joint, link, kick, push, noise and latency make", "bad-type")
+            raise ArgumentError(f"terms: {term!r}", "give what joint, link, kick, push, noise and latency make",
+                                "bad-type")
         if term.name in names or "/" in term.name or not term.name:
-            raise ArgumentError(f"a term called '{term.name}'", "give each a name of its own, without '/': name=...", "name-taken")
+            raise ArgumentError(f"a term called '{term.name}'", "give each a name of its own, without '/': name=...",
+                                "name-taken")
         names.add(term.name)
     return given
 

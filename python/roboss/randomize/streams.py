@@ -53,4 +53,5 @@ def pick(items: Sequence[_T], count: int, *, seed: int = 0, weights: Optional[Ar
         raise ArgumentError("no items to pick from", "give one or more", "no-items")
     places = choice(np.arange(len(things)), weights)
     seed = whole("seed", seed)
-    return [things[int(places.sample(stream(seed, number, "", "pick", 0), 1, 1)[0, 0])] for number in range(whole("count", count))]
+    drawn = [places.sample(stream(seed, number, "", "pick", 0), 1, 1) for number in range(whole("count", count))]
+    return [things[int(place[0, 0])] for place in drawn]

@@ -14,7 +14,7 @@ from ..robots import Robots
 from .distributions import Distribution, Floats
 
 Moment = Literal["start", "reset", "step"]
-When = Union[Moment, float, tuple[float, float]]  #: a moment; or an interval in s, of one length or from a least to a most
+When = Union[Moment, float, tuple[float, float]]  #: a moment; or an interval in s: its length, or least and most
 Operation = Literal["set", "scale", "add"]
 _MOMENTS: dict[str, Moment] = {"start": "start", "reset": "reset", "step": "step"}
 _OPERATIONS: dict[str, Operation] = {"set": "set", "scale": "scale", "add": "add"}
@@ -145,8 +145,9 @@ class LatencyTerm(Term):
         return [("latency", "steps")]
 
 
-def joint(parameter: str, distribution: Distribution, operation: str = "set", *, joints: Union[str, Iterable[str]] = "*",
-          when: When = "reset", shared: bool = False, name: Optional[str] = None) -> Term:
+def joint(parameter: str, distribution: Distribution, operation: str = "set", *,
+          joints: Union[str, Iterable[str]] = "*", when: When = "reset", shared: bool = False,
+          name: Optional[str] = None) -> Term:
     """A number of joints: `Robots.parameters` has their names and units.
 
     Args:
@@ -167,7 +168,8 @@ def joint(parameter: str, distribution: Distribution, operation: str = "set", *,
 
 def link(parameter: str, distribution: Distribution, operation: str = "set", *, links: Union[str, Iterable[str]] = "*",
          when: When = "reset", shared: bool = False, name: Optional[str] = None) -> Term:
-    """A number of links: `Robots.link_parameters` has their names and units. Links that do not have it stay as they are.
+    """A number of links: `Robots.link_parameters` has their names and units. Links that do not have it stay as they
+    are.
 
     Args:
         parameter: "mass", "centre_x", "inertia_xx", "friction", "restitution" ...
@@ -260,13 +262,14 @@ def _number(kind: Literal["joint", "link"], parameter: str, distribution: Distri
     patterns = tuple(names_of(f"{kind}s", parts))
     if not patterns:
         raise ArgumentError(f"term '{own}' for no {kind}", "give names or patterns", "no-part")
-    return NumberTerm(own, _distribution(distribution), _moment(when), kind, parameter, _OPERATIONS[operation], patterns,
-                      flag("shared", shared))
+    return NumberTerm(own, _distribution(distribution), _moment(when), kind, parameter, _OPERATIONS[operation],
+                      patterns, flag("shared", shared))
 
 
 def _distribution(given: object) -> Distribution:
     if not isinstance(given, Distribution):
-        raise ArgumentError(f"distribution: {given!r}", "give uniform(...), log_uniform(...), normal(...) or choice(...)", "bad-type")
+        raise ArgumentError(f"distribution: {given!r}",
+                            "give uniform(...), log_uniform(...), normal(...) or choice(...)", "bad-type")
     return given
 
 
@@ -286,5 +289,6 @@ def _moment(when: object) -> Union[Moment, tuple[float, float]]:
     bounds = list(when) if isinstance(when, (tuple, list)) else [when, when]
     seconds = [real("when", bound) for bound in bounds]
     if len(seconds) != 2 or not 0 < seconds[0] <= seconds[1] < np.inf:
-        raise ArgumentError(f"an interval of {seconds} s", "give seconds above 0, or a least and a most", "bad-interval")
+        raise ArgumentError(f"an interval of {seconds} s", "give seconds above 0, or a least and a most",
+                            "bad-interval")
     return seconds[0], seconds[1]
