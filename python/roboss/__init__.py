@@ -15,6 +15,7 @@ SI units and radians everywhere; positions and velocities in the world frame and
 all arrays. The result is the same to the last bit for any number of threads, and the same as that of `roboss run`.
 """
 from . import pickling as pickling
+from . import randomize as randomize
 from . import terrain as terrain
 from ._core import Diagnostic, Save
 from .batch import Batch

@@ -19,7 +19,7 @@ from roboss.analysis.command import main as analysis
 REPOSITORY = Path(__file__).resolve().parents[2]
 ROBOSS = REPOSITORY / "build" / "release" / "bin" / "roboss"
 #: Pages whose Python runs as it stands, one block after the other.
-PAGES = ["README.md", "docs/python.md", "docs/learning.md", "docs/older-systems.md",
+PAGES = ["README.md", "docs/python.md", "docs/learning.md", "docs/randomization.md", "docs/older-systems.md",
          "docs/from-isaac-lab-mujoco-gymnasium.md"]
 BLOCK = re.compile(r"^```python\n(.*?)^```", re.DOTALL | re.MULTILINE)
 

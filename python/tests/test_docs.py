@@ -14,9 +14,11 @@ from roboss import (batch, builder, camera, envs, kinematics, padded, robots, ru
                     view, world)
 from roboss.analysis import recorder, recording
 from roboss.envs import city, city_driver, parallel, single, soccer
+from roboss.randomize import randomizer, streams
 
 MODULES = [roboss, batch, padded, terrain, builder, camera, world, run, simulation, robots, sensors, kinematics, trajectories, view]
 MODULES += [roboss.analysis, recorder, recording, envs, city, city_driver, parallel, single, soccer]
+MODULES += [roboss.randomize, randomizer, streams]
 
 
 @pytest.mark.parametrize("module", MODULES, ids=lambda module: module.__name__)
@@ -25,7 +27,8 @@ def test_examples_in_docstrings(module):
     assert result.attempted > 0 and result.failed == 0
 
 
-@pytest.mark.parametrize("module", [roboss, envs, roboss.analysis], ids=lambda module: module.__name__)
+@pytest.mark.parametrize("module", [roboss, envs, roboss.analysis, roboss.randomize],
+                         ids=lambda module: module.__name__)
 def test_everything_public_has_a_docstring(module):
     for name in module.__all__:
         thing = getattr(module, name)

@@ -1,7 +1,7 @@
 """Cars that drive through a city by laser: the task, and its environments for Gymnasium."""
 from __future__ import annotations
 
-from typing import Any, Optional, Union
+from typing import Any, Iterable, Optional, Union
 
 import gymnasium
 import numpy as np
@@ -9,6 +9,7 @@ from gymnasium.vector import AutoresetMode
 from numpy.typing import NDArray
 
 from ..errors import ArgumentError
+from ..randomize import Term
 from ..world import World, load
 from . import city_view
 from .car import drive, heading, poses_of
@@ -43,11 +44,12 @@ class CityTask(Task):
         step_s: simulated time of a step, s; a multiple of the world's tick.
         dt: length of a tick in s; None: the world's.
         threads: that step.
+        randomize: terms of roboss.randomize for the cars, as Task.
     """
 
     def __init__(self, cars: int = 64, *, worlds: int = 1, world: Union[World, str, None] = None,
                  collision_cost: float = 5.0, episode_s: float = 60.0, step_s: float = 0.05, dt: Optional[float] = None,
-                 threads: Optional[int] = None):
+                 threads: Optional[int] = None, randomize: Iterable[Term] = ()):
         if world is None:
             world = city_world(cars, dt)
         elif not isinstance(world, World):
@@ -58,7 +60,7 @@ class CityTask(Task):
         one = np.ones(city_view.COLUMNS, dtype=np.float32)
         super().__init__(world, tuple(names), gymnasium.spaces.Box(-one, one), gymnasium.spaces.Box(-one[:2], one[:2]),
                          worlds=worlds, threads=threads, ticks=round(step_s / world.dt),
-                         episode_steps=round(episode_s / step_s))
+                         episode_steps=round(episode_s / step_s), randomize=randomize)
         self.collision_cost = collision_cost
         self.map = CityMap(world.scenery)
         self._outside = self.map.outside(cars)

@@ -62,8 +62,8 @@ class TaskParallelEnv(ParallelEnv):
         if seed is not None:
             self._rng, _ = seeding.np_random(seed)
         self.agents = list(self.possible_agents)
-        self.task.reset(self._rng)
-        return self._by_name(self.task.observe()), {agent: {} for agent in self.agents}
+        self.task.reset(self._rng, seed)
+        return self._by_name(self.task.observations()), {agent: {} for agent in self.agents}
 
     def step(self, actions: dict[str, NDArray[Any]]) -> tuple[ByAgent, ByAgent, ByAgent, ByAgent, ByAgent]:
         """One step of the world; agents of which no action is given get zeros. See pettingzoo.ParallelEnv.step.
@@ -78,7 +78,7 @@ class TaskParallelEnv(ParallelEnv):
             if agent in actions:
                 rows[self._rows[agent]] = actions[agent]
         outcome = self.task.step(rows, self._rng)
-        seen = self._by_name(self.task.observe())
+        seen = self._by_name(self.task.observations())
         rewards, terminated, truncated = (
             {agent: values[self._rows[agent]].item() for agent in self.agents}
             for values in (outcome.rewards, outcome.terminated, outcome.truncated))

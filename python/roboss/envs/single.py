@@ -45,8 +45,8 @@ class TaskEnv(gymnasium.Env):
               ) -> tuple[NDArray[np.float32], dict[str, Any]]:
         """Starts the world again; the same seed gives the same observations and state hash. There are no options."""
         super().reset(seed=seed)
-        self.task.reset(self.np_random)
-        self._seen = self.task.observe()
+        self.task.reset(self.np_random, seed)
+        self._seen = self.task.observations()
         return self._seen[0].copy(), {}
 
     def step(self, action: NDArray) -> tuple[NDArray[np.float32], float, bool, bool, dict[str, Any]]:
@@ -63,7 +63,7 @@ class TaskEnv(gymnasium.Env):
         actions[0] = action
         outcome = self.task.step(actions, self.np_random)
         self._replace(outcome)
-        self._seen = self.task.observe()
+        self._seen = self.task.observations()
         if outcome.finished[0]:
             self.task.leave(np.arange(self.task.count) == 0)
         infos = {name: values[0].item() if values.ndim == 1 else values[0] for name, values in outcome.infos.items()}

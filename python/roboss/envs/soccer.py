@@ -1,7 +1,7 @@
 """Two teams of cars and a ball: the task, and its environment for Gymnasium."""
 from __future__ import annotations
 
-from typing import Any, Optional, Union
+from typing import Any, Iterable, Optional, Union
 
 import gymnasium
 import numpy as np
@@ -9,6 +9,7 @@ from gymnasium.vector import AutoresetMode
 from numpy.typing import NDArray
 
 from ..errors import ArgumentError
+from ..randomize import Term
 from .car import drive, heading, poses_of
 from .single import TaskEnv
 from .soccer_driver import chase_the_ball
@@ -42,17 +43,19 @@ class SoccerTask(Task):
         match_s: a match is truncated after this time, s.
         step_s: simulated time of a step, s.
         threads: that step.
+        randomize: terms of roboss.randomize for the cars, as Task.
     """
 
     def __init__(self, cars: int = 3, *, worlds: int = 1, match_s: float = 60.0, step_s: float = 0.05,
-                 threads: Optional[int] = None):
+                 threads: Optional[int] = None, randomize: Iterable[Term] = ()):
         if not 1 <= cars <= 8:
             raise ArgumentError(f"teams of {cars} cars", "give 1 to 8")
         names = tuple(f"{team}_{number}" for team in ("red", "blue") for number in range(cars))
         world = soccer_world(names)
         one = np.ones(12 + 2 * (2 * cars - 1), dtype=np.float32)
         super().__init__(world, names, gymnasium.spaces.Box(-one, one), gymnasium.spaces.Box(-one[:2], one[:2]),
-                         worlds=worlds, threads=threads, ticks=round(step_s / world.dt), episode_steps=round(match_s / step_s))
+                         worlds=worlds, threads=threads, ticks=round(step_s / world.dt),
+                         episode_steps=round(match_s / step_s), randomize=randomize)
         self._team = cars
         self._side = np.tile(np.repeat([1.0, -1.0], cars), worlds)  # towards +x or -x
         self._others_of = _others_of_each(cars)

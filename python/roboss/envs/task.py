@@ -3,7 +3,7 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from dataclasses import dataclass
-from typing import Any, Optional, Union
+from typing import Any, Iterable, Optional, Union
 
 import gymnasium
 import numpy as np
@@ -11,6 +11,8 @@ from numpy.typing import NDArray
 
 from ..batch import Batch
 from ..errors import ArgumentError
+from ..names import listed
+from ..randomize import Randomizer, Term
 from ..simulation import Simulation
 from ..world import World
 
@@ -57,11 +59,15 @@ class Task(ABC):
         threads: that step; None: one for each core that this process may use. No bit depends on it.
         ticks: time steps of the world in a step of the environment.
         episode_steps: an episode is truncated after this number of steps.
+        randomize: terms of roboss.randomize for the agents' robots: numbers of joints and links, kicks, pushes, noise
+            of the observation, latency of actions. `randomizer` has what was drawn.
     """
+
+    randomizer: Optional[Randomizer] = None  #: of the agents' robots, with the seed of the environment's reset
 
     def __init__(self, world: World, names: tuple[str, ...], observation_space: gymnasium.spaces.Box,
                  action_space: gymnasium.spaces.Box, *, worlds: int = 1, threads: Optional[int] = None, ticks: int = 25,
-                 episode_steps: int = 1200):
+                 episode_steps: int = 1200, randomize: Iterable[Term] = ()):
         if worlds < 1 or ticks < 1 or episode_steps < 1:
             raise ArgumentError(f"{worlds} worlds, {ticks} ticks a step, {episode_steps} steps an episode", "give 1 or more")
         self.names = tuple(names)  #: agents of each world
@@ -74,6 +80,9 @@ class Task(ABC):
         self._robots_of = [simulation.robots(self.names) for simulation in self.simulations]
         self.present: Mask = np.zeros(self.count, dtype=bool)  #: who is in the world
         self.age = np.zeros(self.count, dtype=np.int64)  #: steps since each agent's start
+        if terms := listed("randomize", randomize):
+            shape = observation_space.shape
+            self.randomizer = Randomizer(self.robots, terms, observation_columns=shape[0] if len(shape) == 1 else None)
 
     @property
     def count(self) -> int:
@@ -90,19 +99,31 @@ class Task(ABC):
         """Simulation.state_hash of each world."""
         return tuple(simulation.state_hash for simulation in self.simulations)
 
-    def reset(self, rng: np.random.Generator) -> None:
-        """All worlds at their start, with other sensor noise, and all agents at new places."""
-        seed = int(rng.integers(2**31))
+    def reset(self, rng: np.random.Generator, seed: Optional[int] = None) -> None:
+        """All worlds at their start, with other sensor noise, and all agents at new places.
+
+        Args:
+            seed: of the randomizer, which starts anew; None: it goes on.
+        """
+        of_noise = int(rng.integers(2**31))
         for number, simulation in enumerate(self.simulations):
-            simulation.reset(seed + number)
+            simulation.reset(of_noise + number)
+        if self.randomizer is not None and (seed is not None or not self.randomizer.begun):
+            self.randomizer.reseed(of_noise if seed is None else seed)
         self.present[:] = False
         self.start(np.ones(self.count, dtype=bool), rng)
 
     def start(self, agents: Mask, rng: np.random.Generator) -> None:
         """Begins a new episode of these agents; all others go on."""
         self.age[agents] = 0
-        self.place(agents, rng)
+        self._begin(agents, rng)
         self.present |= agents
+
+    def _begin(self, agents: Mask, rng: np.random.Generator) -> None:
+        """Places these agents, and draws what is drawn at the start of an episode."""
+        self.place(agents, rng)
+        if self.randomizer is not None:
+            self.randomizer.reset(agents)
 
     def leave(self, agents: Mask) -> None:
         """Takes these agents out of the world."""
@@ -115,7 +136,7 @@ class Task(ABC):
         Raises:
             StateError: as Simulation.step.
         """
-        self.act(np.asarray(actions, dtype=np.float64))
+        self._give(np.asarray(actions, dtype=np.float64))
         if self.worlds == 1:
             self.simulation.step(self.ticks)
         else:
@@ -126,6 +147,13 @@ class Task(ABC):
         truncated = self.present & ~terminated & (self.age >= self.episode_steps)
         return Outcome(rewards, terminated, truncated, infos)
 
+    def _give(self, actions: NDArray[np.float64]) -> None:
+        """Orders the actions, or those whose latency is over, and gives the kicks and pushes that are due."""
+        if self.randomizer is not None:
+            self.randomizer.update(self.present)
+            actions = self.randomizer.delayed(actions)
+        self.act(actions)
+
     def rows_of(self, values: NDArray[Any]) -> NDArray[Any]:
         """An array of `robots`, (N, ...) of one world or (worlds, N, ...) of several, with one row for each agent: (count, ...)."""
         return values.reshape(self.count, *values.shape[1 if self.worlds == 1 else 2:])
@@ -133,6 +161,13 @@ class Task(ABC):
     def by_world(self, rows: NDArray[Any]) -> NDArray[Any]:
         """An array with one row for each agent, (count, ...), as `robots` takes it: (N, ...), or (worlds, N, ...) of several worlds."""
         return rows if self.worlds == 1 else rows.reshape(self.worlds, len(self.names), *rows.shape[1:])
+
+    def observations(self) -> NDArray[np.float32]:
+        """What each agent gets to see, (count, ...): `observe`, with the noise of `randomize`, within the space."""
+        seen = self.observe()
+        if self.randomizer is None:
+            return seen
+        return self.randomizer.noisy(seen).clip(self.observation_space.low, self.observation_space.high)
 
     @abstractmethod
     def observe(self) -> NDArray[np.float32]:

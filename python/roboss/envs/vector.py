@@ -66,12 +66,12 @@ class TaskVectorEnv(VectorEnv):
         super().reset(seed=seed)
         mask = (options or {}).get("reset_mask")
         if mask is None:
-            self.task.reset(self.np_random)
+            self.task.reset(self.np_random, seed)
         else:
             self._check(mask)
             self.task.start(mask, self.np_random)
         self._was_reset = True
-        return self.task.observe(), {}
+        return self.task.observations(), {}
 
     def step(self, actions: NDArray) -> tuple[NDArray[np.float32], NDArray[np.float64], Mask, Mask, dict[str, Any]]:
         """One step of all agents; see gymnasium.vector.VectorEnv.step, and the modes above.
@@ -88,7 +88,7 @@ class TaskVectorEnv(VectorEnv):
             infos = self._start_again(outcome, infos)
         elif self.autoreset_mode == AutoresetMode.NEXT_STEP and not present.all():
             self.task.start(~present, self.np_random)
-        observations = self.task.observe()
+        observations = self.task.observations()
         if self.autoreset_mode != AutoresetMode.SAME_STEP and outcome.finished.any():
             self.task.leave(outcome.finished)
         return observations, outcome.rewards, outcome.terminated, outcome.truncated, infos
@@ -108,7 +108,7 @@ class TaskVectorEnv(VectorEnv):
 
     def _start_again(self, outcome: Outcome, infos: dict[str, Any]) -> dict[str, Any]:
         """Starts the finished agents; the infos with what they saw and were told last."""
-        last = self.task.observe()
+        last = self.task.observations()
         final = np.full(self.num_envs, None, dtype=object)
         for agent in np.flatnonzero(outcome.finished):
             final[agent] = last[agent]

@@ -1,7 +1,7 @@
 """Carriers that fetch loads at racks and bring them to stations: the task, and its environments for Gymnasium."""
 from __future__ import annotations
 
-from typing import Any, Optional, Union
+from typing import Any, Iterable, Optional, Union
 
 import gymnasium
 import numpy as np
@@ -9,6 +9,7 @@ from gymnasium.vector import AutoresetMode
 from numpy.typing import NDArray
 
 from ..errors import ArgumentError
+from ..randomize import Term
 from .car import heading, poses_of
 from .single import TaskEnv
 from .task import Mask, Results, Task
@@ -61,10 +62,12 @@ class WarehouseTask(Task):
         episode_s: an episode is truncated after this time, s.
         step_s: simulated time of a step, s; a multiple of the world's tick, 2 ms.
         threads: that step.
+        randomize: terms of roboss.randomize for the carriers, as Task.
     """
 
     def __init__(self, carriers: int = 8, *, worlds: int = 1, collision_cost: float = 5.0, battery_s: float = 180.0,
-                 charge_s: float = 10.0, episode_s: float = 120.0, step_s: float = 0.05, threads: Optional[int] = None):
+                 charge_s: float = 10.0, episode_s: float = 120.0, step_s: float = 0.05, threads: Optional[int] = None,
+                 randomize: Iterable[Term] = ()):
         if not 1 <= carriers <= 200:
             raise ArgumentError(f"{carriers} carriers in a hall", "give 1 to 200; `worlds` for several halls")
         if not (battery_s > 0 and charge_s > 0):
@@ -75,7 +78,7 @@ class WarehouseTask(Task):
         one = np.ones(COLUMNS, dtype=np.float32)
         super().__init__(world, names, gymnasium.spaces.Box(-one, one), gymnasium.spaces.Box(-one[:2], one[:2]),
                          worlds=worlds, threads=threads, ticks=round(step_s / world.dt),
-                         episode_steps=round(episode_s / step_s))
+                         episode_steps=round(episode_s / step_s), randomize=randomize)
         self.collision_cost, self._battery_s, self._charge_steps = collision_cost, battery_s, round(charge_s / step_s)
         self._outside = self.hall.outside(carriers)
         self._loads_of = [simulation.robots([f"load_{number}" for number in range(carriers)])
