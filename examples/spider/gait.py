@@ -25,7 +25,7 @@ class Gaits:
         path = Path(library or os.environ.get("ROBOSS_SPIDER_LIBRARY", LIBRARY))
         if not path.exists():
             raise GaitError(f"{path}: there is no such library\n  remedy: tools/build.sh release roboss_spider_gait")
-        self._library = ctypes.CDLL(str(path))
+        self._path, self._library = path, ctypes.CDLL(str(path))
         self._library.roboss_spider_name.restype = ctypes.c_char_p
         self.names, index = [], ctypes.c_size_t(0)
         while (name := self._library.roboss_spider_name(index)) is not None:
@@ -33,6 +33,12 @@ class Gaits:
             index.value += 1
         self.default = np.empty(len(self.names))
         self._library.roboss_spider_default(_address(self.default))
+
+    def __reduce__(self):
+        return Gaits, (self._path,)
+
+    def __deepcopy__(self, memo):
+        return self  # it does not change
 
     def targets(self, gaits, time, turns):
         """Joint targets (N, 18) in rad of gaits (N, numbers), `time` s after the first step; turns (N,), rad a stride."""

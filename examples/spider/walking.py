@@ -51,7 +51,7 @@ class Walker:
         turns, orders = np.zeros(len(rows)), None
         for step in range(round(seconds / PERIOD)):
             # Orders take effect a period after the observation, as those of the control program.
-            wish = np.clip(-TURN_GAIN * _yaw(spiders.pose), -MOST_TURN, MOST_TURN)
+            wish = np.clip(-TURN_GAIN * yaw_of(spiders.pose), -MOST_TURN, MOST_TURN)
             turns += np.clip(wish - turns, -TURN_CHANGE * PERIOD, TURN_CHANGE * PERIOD)
             following = self.gaits.targets(rows, (step + 1) * PERIOD - STAND, turns)
             if step > 0:
@@ -76,7 +76,7 @@ class Walker:
                     np.arccos(np.clip(up, -1, 1)).max(axis=0), height.std(axis=0), quantile(velocity), quantile(effort), power)
 
 
-def _yaw(pose):
+def yaw_of(pose):
     x, y, z, w = pose[:, 3:].T
     return np.arctan2(2 * (x * y + w * z), 1 - 2 * (y * y + z * z))
 

@@ -127,11 +127,11 @@ class _Replay(Simulation):
         replay._journal, replay._parts, replay._branch = journal, list(parts), branch
         return replay
 
-    def __reduce__(self) -> tuple[Any, ...]:
+    def _save_for_copy(self) -> _core.Save:
         if self._parts:
             raise StateError(f"a recording that continues in branch {self._parts[0][0]} has no copy of its own",
                              "keep the path and the time, or go there with follow=False", "recording")
-        return super().__reduce__()
+        return super()._save_for_copy()
 
     def step(self, ticks: int = 1) -> None:
         end = self.tick + ticks

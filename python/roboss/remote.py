@@ -188,8 +188,12 @@ class RemoteSimulation(Run):
     def __exit__(self, *_: object) -> None:
         self.close()
 
+    def __reduce__(self) -> tuple[Any, ...]:
+        raise StateError("a run on a cluster has no copy in this process",
+                         "save() it there, and load the file as a Simulation", "remote")
+
     def __getattr__(self, name: str) -> Any:
-        if name in ("view", "threads"):
+        if name in ("branch", "view", "threads"):
             raise StateError(f"'{name}' is for a Simulation in this process",
                              "see control() and `roboss control` for runs on a cluster", "remote")
         raise AttributeError(name)

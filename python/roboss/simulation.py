@@ -4,7 +4,7 @@ from __future__ import annotations
 import operator
 import os
 import warnings
-from typing import Any, Iterable, Optional, Self, Sequence, Union
+from typing import TYPE_CHECKING, Any, Iterable, Optional, Self, Sequence, Union
 
 from numpy.typing import ArrayLike
 
@@ -17,6 +17,9 @@ from .run import Run
 from .view import View
 from .world import World, load
 from .world_file import Edit
+
+if TYPE_CHECKING:
+    from .batch import Batch
 
 _THREADS_MOST = 1024  # as the command line
 
@@ -155,6 +158,30 @@ class Simulation(Run):
         """
         self._core.restore(instance("save", save, _core.Save, "give what `save` returned"))
 
+    def branch(self, count: int, *, threads: Optional[int] = None) -> Batch:
+        """`count` simulations that continue from this moment with the same bits, as a Batch: to try what may come.
+
+        Each has the states, orders that wait, sensors and seed of noise of this one, which stays as it is.
+
+        Args:
+            threads: that step the Batch; None: as many as step this simulation.
+
+        Raises:
+            ArgumentError: `count` below 1.
+
+        >>> sim = roboss.Simulation(roboss.example("crossroads.sdf"))
+        >>> sim.step(100)
+        >>> branches = sim.branch(3)
+        >>> branches.robots("car_0").set_joint_targets(np.array([0.0, 5, 10])[:, None, None])   # rad/s
+        >>> _ = branches.step(500)
+        >>> branches.robots("car_0").joint_velocity[:, 0, 0].round(1), sim.tick
+        (array([ 0.,  5., 10.]), 100)
+        """
+        from .batch import branch_of  # it is made of Simulations
+
+        count = whole("count", count, 1)
+        return branch_of([self.world], [self._save_for_copy()], count, self.threads if threads is None else threads)
+
     def reset(self, seed: Optional[int] = None) -> None:
         """Back to the start of the world, without orders; with this seed of noise, None: the same one."""
         self._core.reset(None if seed is None else whole("seed", seed))
@@ -162,7 +189,11 @@ class Simulation(Run):
     def __reduce__(self) -> tuple[Any, ...]:
         if self._batch is not None:
             return operator.getitem, self._batch
-        return _simulation_of, (self.world, self.threads, self.save())
+        return _simulation_of, (self.world, self.threads, self._save_for_copy())
+
+    def _save_for_copy(self) -> _core.Save:
+        """With what a copy begins; raises StateError if there cannot be one."""
+        return self.save()
 
     def spawn(self, source: Union[World, str, os.PathLike], name: Union[None, str, Sequence[str]] = None,
               pose: ArrayLike = (0, 0, 0, 0, 0, 0, 1), *, on_ground: bool = False) -> Robots:

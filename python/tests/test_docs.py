@@ -13,11 +13,11 @@ from conftest import BLOCK, PAGES, REPOSITORY
 from roboss import (batch, builder, camera, envs, kinematics, padded, robots, run, sensors, simulation, terrain, trajectories,
                     view, world)
 from roboss.analysis import recorder, recording
-from roboss.envs import city, city_driver, parallel, single, soccer
+from roboss.envs import city, city_driver, parallel, single, soccer, vector
 from roboss.randomize import randomizer, streams
 
 MODULES = [roboss, batch, padded, terrain, builder, camera, world, run, simulation, robots, sensors, kinematics, trajectories, view]
-MODULES += [roboss.analysis, recorder, recording, envs, city, city_driver, parallel, single, soccer]
+MODULES += [roboss.analysis, recorder, recording, envs, city, city_driver, parallel, single, soccer, vector]
 MODULES += [roboss.randomize, randomizer, streams]
 
 

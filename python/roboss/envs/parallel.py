@@ -10,10 +10,13 @@ from numpy.typing import NDArray
 from pettingzoo import ParallelEnv
 
 from ..errors import ArgumentError, StateError
+from ..simulation import Simulation
+from .branches import copied, simulation_of
 from .city import CityTask
 from .picture import FRAMES, Picture
 from .soccer import SoccerTask
 from .task import Task
+from .vector import closed_error
 from .warehouse import WarehouseTask
 
 
@@ -42,6 +45,7 @@ class TaskParallelEnv(ParallelEnv):
         self._action_spaces = {agent: _copy(task.action_space) for agent in self.possible_agents}
         self._rows = {agent: row for row, agent in enumerate(self.possible_agents)}
         self._rng, _ = seeding.np_random()
+        self.closed = False  #: close() was called
 
     def observation_space(self, agent: str) -> gymnasium.spaces.Box:
         """What the agent sees."""
@@ -71,8 +75,7 @@ class TaskParallelEnv(ParallelEnv):
         Raises:
             StateError: there is no agent (code "not-reset"), or as Simulation.step.
         """
-        if not self.agents:
-            raise StateError("no agent is in the world", "call reset() first", "not-reset")
+        self._check_begun()
         rows = np.zeros((self.task.count, *self.task.action_space.shape))
         for agent in self.agents:
             if agent in actions:
@@ -99,8 +102,39 @@ class TaskParallelEnv(ParallelEnv):
         """
         return self._picture.render(self._rows[self.agents[0]] if self.agents else 0)
 
+    def branch(self, count: int) -> list[TaskParallelEnv]:
+        """`count` copies that continue from this moment with the same bits; this environment stays as it is.
+
+        Each has a world of its own, with its states, orders that wait, sensors, random numbers and ages of episodes.
+        Their worlds are one roboss.Batch; each is stepped by one thread, several of them in several threads of Python.
+
+        Raises:
+            ArgumentError: `count` below 1.
+            StateError: no agent is in the world (code "not-reset"); it is closed ("closed"); it has a part that
+                cannot be copied ("no-copy").
+
+        >>> env = roboss.envs.CityParallelEnv(cars=4)
+        >>> _ = env.reset(seed=1)
+        >>> one, other = env.branch(2)
+        >>> action = np.array([1, 0], dtype=np.float32)
+        >>> _ = one.step({"car_0": action}), other.step({"car_0": -action})
+        >>> one.task.simulation.tick, env.task.simulation.tick
+        (25, 0)
+        """
+        if self.closed:
+            raise closed_error()
+        self._check_begun()
+        original = simulation_of(self.task)
+        assert isinstance(original, Simulation)  # of one world
+        return [copied(self, {id(original): simulation}) for simulation in original.branch(count)]
+
     def close(self) -> None:
         """Nothing has to be released."""
+        self.closed = True
+
+    def _check_begun(self) -> None:
+        if not self.agents:
+            raise StateError("no agent is in the world", "call reset() first", "not-reset")
 
     def _by_name(self, rows: NDArray) -> dict[str, NDArray]:
         return {agent: rows[self._rows[agent]].copy() for agent in self.agents}

@@ -32,6 +32,9 @@ class Picture:
         self._cameras: dict[int, Camera] = {}  # by world
         self._view: Any = None
 
+    def __getstate__(self) -> dict[str, Any]:
+        return {**self.__dict__, "_cameras": {}, "_view": None}  # a copy opens its own
+
     def render(self, agent: int = 0) -> Optional[NDArray[np.uint8]]:
         """A frame from behind this agent, (rows, columns, 3), or None. The viewer's page is opened once; its address is
         printed."""

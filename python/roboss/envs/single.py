@@ -5,11 +5,14 @@ from typing import Any, Callable, Optional
 
 import gymnasium
 import numpy as np
+from gymnasium.vector import AutoresetMode
 from numpy.typing import NDArray
 
 from ..errors import ArgumentError, StateError
-from .picture import MODES, Picture
-from .task import Outcome, Task
+from .branches import Branches, FirstAgent
+from .picture import FRAMES, MODES, Picture
+from .task import Task
+from .vector import TaskVectorEnv, closed_error
 
 
 class TaskEnv(gymnasium.Env):
@@ -30,11 +33,11 @@ class TaskEnv(gymnasium.Env):
         if task.worlds != 1 or (others is None and task.count != 1):
             raise ArgumentError(f"a task of {task.worlds} worlds with {task.count} agents",
                                 "give one world, and `others` if it has several agents")
-        self.task, self._others = task, others
+        self.task, self._agent = task, FirstAgent(task, others)
         self.render_mode, self._picture = render_mode, Picture(task, render_mode)
         self.metadata = {"render_modes": MODES, "render_fps": round(1 / task.step_s)}
         self.observation_space, self.action_space = task.observation_space, task.action_space
-        self._seen: Optional[NDArray] = None
+        self.closed = False  #: close() was called
 
     @property
     def state_hash(self) -> str:
@@ -45,9 +48,8 @@ class TaskEnv(gymnasium.Env):
               ) -> tuple[NDArray[np.float32], dict[str, Any]]:
         """Starts the world again; the same seed gives the same observations and state hash. There are no options."""
         super().reset(seed=seed)
-        self.task.reset(self.np_random, seed)
-        self._seen = self.task.observations()
-        return self._seen[0].copy(), {}
+        self._agent.reset(self.np_random, seed)
+        return self._agent.observations()[0], {}
 
     def step(self, action: NDArray) -> tuple[NDArray[np.float32], float, bool, bool, dict[str, Any]]:
         """One step of the world; see gymnasium.Env.step.
@@ -55,20 +57,45 @@ class TaskEnv(gymnasium.Env):
         Raises:
             StateError: the episode is over or has not begun (code "not-reset"), or as Simulation.step.
         """
-        if self._seen is None or not self.task.present[0]:
-            raise StateError("the episode is over, or has not begun", "call reset() first", "not-reset")
-        actions = np.zeros((self.task.count, *self.action_space.shape))
-        if self._others is not None:
-            actions[:] = self._others(self._seen)
-        actions[0] = action
-        outcome = self.task.step(actions, self.np_random)
-        self._replace(outcome)
-        self._seen = self.task.observations()
+        self._check_begun()
+        outcome = self._agent.step(np.asarray(action)[None], self.np_random)
+        seen = self._agent.observations()[0]
         if outcome.finished[0]:
-            self.task.leave(np.arange(self.task.count) == 0)
+            self._agent.leave(outcome.finished)
         infos = {name: values[0].item() if values.ndim == 1 else values[0] for name, values in outcome.infos.items()}
-        return (self._seen[0].copy(), float(outcome.rewards[0]), bool(outcome.terminated[0]), bool(outcome.truncated[0]),
-                infos)
+        return seen, float(outcome.rewards[0]), bool(outcome.terminated[0]), bool(outcome.truncated[0]), infos
+
+    def branch(self, count: int) -> TaskVectorEnv:
+        """`count` copies that continue from this moment with the same bits, as one vector environment.
+
+        Each is a world of its own: with its states, orders that wait, sensors, random numbers, the age of the episode,
+        and a copy of what drives the others. They are stepped as a roboss.Batch, on the threads of this environment,
+        which stays as it is. A copy that gets its actions has its observations, rewards and state hashes. A copy whose
+        episode is over gets rewards of 0, until `reset(options={"reset_mask": mask})` starts its world again.
+
+        Copies are of this environment, without wrappers around it: `env.unwrapped.branch(count)`.
+
+        Raises:
+            ArgumentError: `count` below 1.
+            StateError: the episode is over or has not begun (code "not-reset"); the environment is closed ("closed");
+                the task has a part that cannot be copied ("no-copy").
+
+        >>> env = gymnasium.make("roboss/City-v0", traffic=3).unwrapped
+        >>> _ = env.reset(seed=1)
+        >>> branches = env.branch(5)
+        >>> speeds = np.linspace(-1, 1, 5)
+        >>> for _ in range(20):
+        ...     _, _, _, _, infos = branches.step(np.stack([speeds, np.zeros(5)], axis=1))
+        >>> int(infos["progress"].argmax()), env.task.simulation.tick       # full speed ahead gets nearest to the goal
+        (4, 0)
+        """
+        if self.closed:
+            raise closed_error()
+        self._check_begun()
+        branches = TaskVectorEnv(Branches(self._agent, self.np_random, count), AutoresetMode.DISABLED,
+                                 self.render_mode if self.render_mode in FRAMES else None)
+        branches._begin(self.np_random)
+        return branches
 
     def render(self) -> Optional[NDArray[np.uint8]]:
         """A frame, (rows, columns, 3), in the mode "rgb_array"; None in the others.
@@ -82,11 +109,9 @@ class TaskEnv(gymnasium.Env):
 
     def close(self) -> None:
         """Closes the viewer's page, if there is one."""
+        self.closed = True
         self._picture.close()
 
-    def _replace(self, outcome: Outcome) -> None:
-        """Starts other agents again whose episodes are over."""
-        finished = outcome.finished.copy()
-        finished[0] = False
-        if finished.any():
-            self.task.start(finished, self.np_random)
+    def _check_begun(self) -> None:
+        if not self._agent.present[0]:
+            raise StateError("the episode is over, or has not begun", "call reset() first", "not-reset")

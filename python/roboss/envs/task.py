@@ -70,19 +70,23 @@ class Task(ABC):
                  episode_steps: int = 1200, randomize: Iterable[Term] = ()):
         if worlds < 1 or ticks < 1 or episode_steps < 1:
             raise ArgumentError(f"{worlds} worlds, {ticks} ticks a step, {episode_steps} steps an episode", "give 1 or more")
-        self.names = tuple(names)  #: agents of each world
-        self.worlds, self.ticks, self.episode_steps = worlds, ticks, episode_steps
+        self.ticks, self.episode_steps = ticks, episode_steps
         self.observation_space, self.action_space = observation_space, action_space  #: of one agent
-        self.simulation: Union[Simulation, Batch] = (
-            Simulation(world, threads=threads) if worlds == 1 else Batch(world, worlds, threads=threads))
-        self.robots = self.simulation.robots(self.names)  #: the agents' robots, of all worlds
-        self.simulations = [self.simulation] if worlds == 1 else list(self.simulation)
-        self._robots_of = [simulation.robots(self.names) for simulation in self.simulations]
-        self.present: Mask = np.zeros(self.count, dtype=bool)  #: who is in the world
-        self.age = np.zeros(self.count, dtype=np.int64)  #: steps since each agent's start
+        self._take(names, Simulation(world, threads=threads) if worlds == 1 else Batch(world, worlds, threads=threads))
         if terms := listed("randomize", randomize):
             shape = observation_space.shape
             self.randomizer = Randomizer(self.robots, terms, observation_columns=shape[0] if len(shape) == 1 else None)
+
+    def _take(self, names: tuple[str, ...], simulation: Union[Simulation, Batch]) -> None:
+        """The agents are the robots of these names in this simulation."""
+        self.names = tuple(names)  #: agents of each world
+        self.simulation: Union[Simulation, Batch] = simulation
+        self.robots = simulation.robots(self.names)  #: the agents' robots, of all worlds
+        self.simulations: list[Simulation] = [simulation] if isinstance(simulation, Simulation) else list(simulation)
+        self.worlds = len(self.simulations)
+        self._robots_of = [simulation.robots(self.names) for simulation in self.simulations]
+        self.present: Mask = np.zeros(self.count, dtype=bool)  #: who is in the world
+        self.age = np.zeros(self.count, dtype=np.int64)  #: steps since each agent's start
 
     @property
     def count(self) -> int:
@@ -137,11 +141,15 @@ class Task(ABC):
             StateError: as Simulation.step.
         """
         self._give(np.asarray(actions, dtype=np.float64))
-        if self.worlds == 1:
-            self.simulation.step(self.ticks)
-        else:
+        if isinstance(self.simulation, Batch):
             for number in np.flatnonzero(self.simulation.step(self.ticks)):
                 self.simulations[number].step()  # raises: it stopped
+        else:
+            self.simulation.step(self.ticks)
+        return self._result(rng)
+
+    def _result(self, rng: np.random.Generator) -> Outcome:
+        """What the agents get after the worlds were stepped."""
         self.age += self.present
         rewards, terminated, infos = self.outcome(rng)
         truncated = self.present & ~terminated & (self.age >= self.episode_steps)
@@ -156,11 +164,15 @@ class Task(ABC):
 
     def rows_of(self, values: NDArray[Any]) -> NDArray[Any]:
         """An array of `robots`, (N, ...) of one world or (worlds, N, ...) of several, with one row for each agent: (count, ...)."""
-        return values.reshape(self.count, *values.shape[1 if self.worlds == 1 else 2:])
+        return values.reshape(self.count, *values.shape[2 if isinstance(self.simulation, Batch) else 1:])
 
     def by_world(self, rows: NDArray[Any]) -> NDArray[Any]:
         """An array with one row for each agent, (count, ...), as `robots` takes it: (N, ...), or (worlds, N, ...) of several worlds."""
-        return rows if self.worlds == 1 else rows.reshape(self.worlds, len(self.names), *rows.shape[1:])
+        several = isinstance(self.simulation, Batch)
+        return rows.reshape(self.worlds, len(self.names), *rows.shape[1:]) if several else rows
+
+    def _seed(self, rng: np.random.Generator) -> None:
+        """Called when the environment gets a new seed, with its generator: for generators beside that one."""
 
     def observations(self) -> NDArray[np.float32]:
         """What each agent gets to see, (count, ...): `observe`, with the noise of `randomize`, within the space."""
@@ -171,7 +183,7 @@ class Task(ABC):
 
     @abstractmethod
     def observe(self) -> NDArray[np.float32]:
-        """What each agent sees now, (count, ...)."""
+        """What each agent sees now, (count, ...). It may be called more than once at a tick, and changes nothing."""
 
     @abstractmethod
     def place(self, agents: Mask, rng: np.random.Generator) -> None:

@@ -1,6 +1,7 @@
 """TaskVectorEnv: the agents of a Task as the sub-environments of a gymnasium.vector.VectorEnv."""
 from __future__ import annotations
 
+import copy
 from typing import Any, Optional, Union
 
 import numpy as np
@@ -9,6 +10,7 @@ from gymnasium.vector.utils import batch_space
 from numpy.typing import NDArray
 
 from ..errors import ArgumentError, StateError
+from .branches import Branches
 from .picture import FRAMES, SMALL, Picture
 from .task import Mask, Outcome, Task
 
@@ -64,6 +66,8 @@ class TaskVectorEnv(VectorEnv):
         The same seed gives the same observations and state hashes. A mask is a bool array (num_envs,).
         """
         super().reset(seed=seed)
+        if seed is not None:
+            self.task._seed(self.np_random)
         mask = (options or {}).get("reset_mask")
         if mask is None:
             self.task.reset(self.np_random, seed)
@@ -92,6 +96,40 @@ class TaskVectorEnv(VectorEnv):
         if self.autoreset_mode != AutoresetMode.SAME_STEP and outcome.finished.any():
             self.task.leave(outcome.finished)
         return observations, outcome.rewards, outcome.terminated, outcome.truncated, infos
+
+    def branch(self, count: int) -> TaskVectorEnv:
+        """`count` copies that continue from this moment with the same bits, as one environment: to try what may come.
+
+        Sub-environments i * num_envs to (i + 1) * num_envs - 1 are copy i: worlds of its own, with their states, orders
+        that wait, sensors, random numbers and ages of episodes. All worlds are stepped as a roboss.Batch, on the threads
+        of this environment, which stays as it is. A copy that gets its calls has its observations, rewards and state
+        hashes. `task.parts` are the copies of its task.
+
+        Raises:
+            ArgumentError: `count` below 1.
+            StateError: it was not reset (code "not-reset"); it is closed ("closed"); the task has a part that cannot be
+                copied ("no-copy").
+
+        >>> cars = gymnasium.make_vec("roboss/City-v0", num_envs=4)
+        >>> _ = cars.reset(seed=1)
+        >>> branches = cars.branch(3)
+        >>> actions = cars.action_space.sample()
+        >>> _, rewards, *_ = cars.step(actions)
+        >>> _, of_branches, *_ = branches.step(np.tile(actions, (3, 1)))
+        >>> (of_branches.reshape(3, 4) == rewards).all(), set(branches.state_hashes) == set(cars.state_hashes)
+        (np.True_, True)
+        """
+        if self.closed:
+            raise closed_error()
+        if not self._was_reset:
+            raise _not_reset()
+        branches = TaskVectorEnv(Branches(self.task, self.np_random, count), self.autoreset_mode, self.render_mode)
+        branches._begin(self.np_random)
+        return branches
+
+    def _begin(self, rng: np.random.Generator) -> None:
+        """It is amid an episode, with a copy of this generator."""
+        self.np_random, self._was_reset = copy.deepcopy(rng), True
 
     def render(self) -> Optional[tuple[NDArray[np.uint8], ...]]:
         """A frame, (160, 240, 3), from behind each agent in the mode "rgb_array", as gymnasium.wrappers.vector.RecordVideo
@@ -131,3 +169,8 @@ def with_masks(infos: dict[str, Any], who: Mask) -> dict[str, Any]:
 
 def _not_reset() -> StateError:
     return StateError("the environment was not reset", "call reset() first", "not-reset")
+
+
+def closed_error() -> StateError:
+    """The error of an environment that can do nothing more."""
+    return StateError("the environment is closed", "make it again, or call this before close()", "closed")

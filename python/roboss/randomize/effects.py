@@ -61,7 +61,8 @@ def obey(orders: list[Order]) -> None:
 def _numbers_order(kind: str, draws: list[tuple[Draw, NumberTerm]], robots: Robots, agents: Rows) -> Order:
     """Sets all numbers of a kind that terms are about: the file's, with the terms applied one after the other.
 
-    Others stay: of joints what they have is set again, of links NaN leaves it, as an inertia that follows its mass.
+    Others stay: of joints what they have is set again, of links NaN leaves it, as an inertia that follows its mass. A link that
+    has no such number in the file gets none.
     """
     own, parts = numbers_of(robots, kind), parts_of(robots, kind)
     about: dict[str, list[str]] = {}  # the parts, by the parameter
@@ -76,7 +77,7 @@ def _numbers_order(kind: str, draws: list[tuple[Draw, NumberTerm]], robots: Robo
         values[parameter] = np.where([part in some for part in touched], of_file, others)
     for draw, term in draws:
         array, mine = values[term.parameter], [touched.index(part) for part, _ in draw.columns]
-        array[:, mine] = term.applied(array[:, mine], draw.rows[agents])
+        array[:, mine] = np.where(np.isnan(array[:, mine]), np.nan, term.applied(array[:, mine], draw.rows[agents]))
     shaped = {parameter: array.reshape(*robots._rows, len(touched)) for parameter, array in values.items()}
     return robots, lambda: own.set(touched, **shaped)
 

@@ -218,14 +218,12 @@ TEST(OrdersFile, ParametersOfLinksAreReadAndWrittenAlike) {
     ASSERT_EQ(orders.size(), 2u);
     EXPECT_EQ(orders[0].action,
               Action(SetLinkParameters{
-                  LinkId(0u), false, {{LinkParameter::kMass, 2.5}, {LinkParameter::kCentreX, -0.125}}}));
+                  LinkId(0u), false, {{LinkParameter::kCentreX, -0.125}, {LinkParameter::kMass, 2.5}}}));
     EXPECT_EQ(orders[1].action, Action(SetLinkParameters{LinkId(0u), true, {}}));
     for (const Order& order : orders) {
         const auto again = parse_orders(order_line(order, *model), "g.jsonl", *model, d);
         ASSERT_EQ(again.size(), 1u);
-        // The keys of a line are sorted by their names.
-        EXPECT_EQ(again[0].action.index(), order.action.index());
-        EXPECT_EQ(order_line(again[0], *model), order_line(order, *model));
+        EXPECT_EQ(again[0].action, order.action);
     }
 }
 
