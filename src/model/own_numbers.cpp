@@ -38,7 +38,8 @@ void OwnType::move_to(const RobotType& type, const OwnNumbers& own) {
     const auto is_alike = [](const BodyShape& a, const BodyShape& b) {
         return a.shape.hull == b.shape.hull && a.shape.surface == b.shape.surface;
     };
-    if (type_ == nullptr || !std::ranges::equal(type_->shapes, type.shapes, is_alike)) *this = OwnType(type, own);
+    if (type_ == nullptr || !std::ranges::equal(type_->shapes, type.shapes, is_alike))
+        *this = OwnType(type, own);
 }
 
 void set_own(const RobotType& type, OwnNumbers own, RobotState& state) {
