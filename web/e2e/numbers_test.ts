@@ -45,7 +45,7 @@ bench.test("a number is set, marked, and the file's stands beside it", async (pa
     await until("it is the robot's", async () => (await own(page)) === 0.4);
     await until("its mark", async () => ((await row(page, "damping").textContent()) ?? "").includes(`file: ${before}`));
     assert.equal(await damping(page).inputValue(), "0.4");
-    await until("the title", async () => /1 not of the file/.test((await section(page).textContent()) ?? ""));
+    await until("the title", async () => /Numbers \(1 own\)/.test((await section(page).textContent()) ?? ""));
 });
 
 bench.test("what is no number is refused at once, what the run refuses is told in its words", async (page) => {

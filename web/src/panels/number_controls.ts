@@ -209,7 +209,7 @@ export class NumberControls {
     /** Marks the joints and links that have own numbers. */
     show(report: RobotReport): void {
         const count = ownCount(report.own);
-        setText(this.title, count === 0 ? "Numbers" : `Numbers (${count} not of the file)`);
+        setText(this.title, count === 0 ? "Numbers" : `Numbers (${count} own)`);
         for (const option of this.choice.options) {
             const { name, place } = this.places[Number(option.value)],
                 text = Object.keys(ownAt(report.own, place)).length > 0 ? `${name} •` : name;
