@@ -7,6 +7,7 @@
 #include <numbers>
 #include <span>
 
+#include "gateway/numbers_json.h"
 #include "gateway/onboard_json.h"
 #include "physics/dynamics/kinematics.h"
 #include "physics/dynamics/motor_effort.h"
@@ -259,6 +260,15 @@ std::string Inspector::robot(RobotId robot) {
                 {"contacts", contacts_json(robot, states_, model.dt_s)},
                 {"all_contacts", complete()}};
     add_onboard(model, robot, states_, report);
+    add_own(state.own, report);
+    return report.dump();
+}
+
+std::string Inspector::numbers(const NumbersWish& wish) {
+    const RobotType& type = scene_->model->type_of(wish.robot);
+    if (!has_numbers(type, wish)) return {};
+    Json report{{"type", "numbers"}, {"scene", scene_->number}, {"robot", wish.robot.value}, {"tick", tick_}};
+    add_numbers(type, *states_[wish.robot.index()], wish, report);
     return report.dump();
 }
 

@@ -31,6 +31,8 @@ class Inspector : private SensorSources {
 
     /// The JSON of "robot", of a robot that it shows().
     std::string robot(RobotId robot);
+    /// The JSON of "numbers", of a robot that it shows(); empty: it has no such joint axis or link.
+    std::string numbers(const NumbersWish& wish);
     /// The JSON of "overlay" with the contacts, once complete().
     std::string contacts();
     /// The JSON of "overlay" with who hears whom by radio, once complete().

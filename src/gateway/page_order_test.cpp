@@ -55,5 +55,25 @@ TEST_F(PageOrderTest, BondsAreCheckedAsForEveryClient) {
     EXPECT_FALSE(give(*client, {RobotId(0u), attach}).ok()) << "no force";
 }
 
+TEST_F(PageOrderTest, NumbersOfJointsAndLinksAreCheckedAsForEveryClient) {
+    const auto code = [&](const auto& action) {
+        const Result<> given = give(*client, {RobotId(1u), action});
+        return given.ok() ? std::string() : given.error().code;
+    };
+    using enum JointParameter;
+    const JointId wheel(0u);
+    EXPECT_EQ(code(SetJointParameters{wheel, 0, false, {{kDamping, 0.4}}}), "");
+    EXPECT_EQ(code(SetJointParameters{wheel, 0, true, {}}), "");
+    EXPECT_EQ(code(SetJointParameters{JointId(9u), 0, true, {}}), "no-joint");
+    EXPECT_EQ(code(SetJointParameters{wheel, 1000, true, {}}), "no-axis");
+    EXPECT_EQ(code(SetJointParameters{wheel, 0, false, {}}), "no-parameter");
+    EXPECT_EQ(code(SetJointParameters{wheel, 0, false, {{kDamping, -1}}}), "bad-parameter");
+    EXPECT_EQ(code(SetJointParameters{wheel, 0, false, {{kLower, 0}}}), "half-limits");
+    const LinkId tyre(1u);
+    EXPECT_EQ(code(SetLinkParameters{tyre, false, {{LinkParameter::kMass, 0.75}}}), "");
+    EXPECT_EQ(code(SetLinkParameters{tyre, false, {{LinkParameter::kInertiaXx, 1}}}), "half-inertia");
+    EXPECT_EQ(code(SetLinkParameters{LinkId(9u), true, {}}), "no-link");
+}
+
 }  // namespace
 }  // namespace roboss

@@ -2,11 +2,12 @@
 #include "gateway/page_request.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "gateway/page_fields.h"
+#include "model/joint_parameter_texts.h"
 #include "wire/viewer_protocol.h"
 
 namespace roboss {
@@ -15,67 +16,7 @@ namespace {
 constexpr std::size_t kWordsMax = 1024;
 constexpr int kDepthMax = 8;
 
-/// Fields of one object; the first that is wrong is remembered.
-class Fields {
-  public:
-    explicit Fields(const nlohmann::json& object) : object_(object) {}
-
-    const nlohmann::json* find(const char* name) const {
-        const auto found = object_.find(name);
-        return found == object_.end() ? nullptr : &*found;
-    }
-    std::string text(const char* name) {
-        const nlohmann::json* value = find(name);
-        if (value != nullptr && value->is_string()) return value->get<std::string>();
-        return fail(name, "a string"), std::string();
-    }
-    double number(const char* name, std::optional<double> otherwise = {}) {
-        const nlohmann::json* value = find(name);
-        if (value == nullptr && otherwise) return *otherwise;
-        if (value != nullptr && value->is_number() && std::isfinite(value->get<double>()))
-            return value->get<double>();
-        return fail(name, "a finite number"), 0;
-    }
-    std::uint32_t index(const char* name, std::optional<std::uint32_t> otherwise = {}) {
-        const nlohmann::json* value = find(name);
-        if (value == nullptr && otherwise) return *otherwise;
-        return value == nullptr ? (fail(name, "a number from 0 on"), 0) : index_of(*value, name);
-    }
-    std::vector<double> numbers(const char* name, std::size_t count) {
-        std::vector<double> values;
-        const nlohmann::json* list = find(name);
-        if (list != nullptr && list->is_array() && list->size() == count)
-            for (const nlohmann::json& value : *list)
-                if (value.is_number() && std::isfinite(value.get<double>())) values.push_back(value);
-        if (values.size() != count) fail(name, "a list of " + std::to_string(count) + " finite numbers");
-        values.resize(count);
-        return values;
-    }
-    std::vector<double> numbers(const char* name) {
-        const nlohmann::json* list = find(name);
-        if (list != nullptr && list->is_array()) return numbers(name, list->size());
-        return fail(name, "a list of finite numbers"), std::vector<double>();
-    }
-    Vec3 vec3(const char* name) {
-        const std::vector<double> v = numbers(name, 3);
-        return {v[0], v[1], v[2]};
-    }
-    std::uint32_t index_of(const nlohmann::json& value, const char* name) {
-        if (value.is_number_unsigned() && value.get<std::uint64_t>() < RobotId::kNone)
-            return value.get<std::uint32_t>();
-        return fail(name, "a number from 0 on"), 0;
-    }
-    void fail(const std::string& name, const std::string& wanted) {
-        if (wrong_.empty()) wrong_ = "\"" + name + "\" is not " + wanted;
-    }
-    const std::string& wrong() const { return wrong_; }
-
-  private:
-    const nlohmann::json& object_;
-    std::string wrong_;
-};
-
-ControlArguments control_of(Fields& fields) {
+ControlArguments control_of(PageFields& fields) {
     ControlArguments control;
     const nlohmann::json* words = fields.find("words");
     if (words == nullptr || !words->is_array() || words->empty() || words->size() > kWordsMax)
@@ -87,7 +28,7 @@ ControlArguments control_of(Fields& fields) {
     return control;
 }
 
-SetPose pose_of(Fields& fields) {
+SetPose pose_of(PageFields& fields) {
     const std::vector<double> v = fields.numbers("pose", 7);
     const double norm_squared = v[3] * v[3] + v[4] * v[4] + v[5] * v[5] + v[6] * v[6];
     if (!(norm_squared > 1e-6 && norm_squared < 1e6))
@@ -95,13 +36,13 @@ SetPose pose_of(Fields& fields) {
     return {{{v[0], v[1], v[2]}, normalized(Quat{v[3], v[4], v[5], v[6]})}};
 }
 
-bool flag_of(Fields& fields, const char* name) {
+bool flag_of(PageFields& fields, const char* name) {
     const nlohmann::json* value = fields.find(name);
     if (value != nullptr && !value->is_boolean()) fields.fail(name, "true or false");
     return value != nullptr && value->is_boolean() && value->get<bool>();
 }
 
-PagePull pull_of(Fields& fields) {
+PagePull pull_of(PageFields& fields) {
     PagePull pull;
     pull.pull.link = LinkId(fields.index("link", 0u));
     pull.pull.p_L = fields.vec3("point");
@@ -112,10 +53,15 @@ PagePull pull_of(Fields& fields) {
     return pull;
 }
 
-SetJoint joint_of(Fields& fields) {
+/// More than any joint has is refused by number.
+int axis_of(PageFields& fields) {
+    return static_cast<int>(std::min(fields.index("axis", 0u), 1000u));
+}
+
+SetJoint joint_of(PageFields& fields) {
     SetJoint joint;
     joint.joint = JointId(fields.index("joint"));
-    joint.axis = static_cast<int>(fields.index("axis", 0u) % 8);
+    joint.axis = axis_of(fields);
     const std::string mode = fields.text("mode");
     joint.target = fields.number("target", 0.0);
     joint.max_effort = fields.number("max_effort", -1.0);
@@ -126,14 +72,58 @@ SetJoint joint_of(Fields& fields) {
     return fields.fail("mode", "passive, velocity, position or effort"), joint;
 }
 
-PageCommand command_of(Fields& fields) {
+/// Calls take(name, value) for each member of "values", which may be left out; it says false of a wrong one.
+template <class Take>
+void take_values(PageFields& fields, const std::string& names, Take take) {
+    const nlohmann::json* values = fields.find("values");
+    if (values == nullptr) return;
+    const std::string wanted = "an object of finite numbers; known names: " + names;
+    if (!values->is_object()) return fields.fail("values", wanted);
+    for (const auto& [name, value] : values->items())
+        if (!take(name, value)) return fields.fail("values", wanted);
+}
+
+std::optional<double> number_of(const nlohmann::json& value) {
+    if (!value.is_number() || !std::isfinite(value.get<double>())) return std::nullopt;
+    return value.get<double>();
+}
+
+SetJointParameters joint_parameters_of(PageFields& fields) {
+    SetJointParameters order;
+    order.joint = JointId(fields.index("joint"));
+    order.axis = axis_of(fields);
+    order.reset = flag_of(fields, "reset");
+    take_values(fields, joint_parameter_names(), [&](const std::string& name, const nlohmann::json& value) {
+        const auto parameter = find_joint_parameter(name);
+        if (!parameter) return false;
+        const auto number = value.is_null() ? value_of_null(*parameter) : number_of(value);
+        if (number) order.values.push_back({*parameter, *number});
+        return number.has_value();
+    });
+    return order;
+}
+
+SetLinkParameters link_parameters_of(PageFields& fields) {
+    SetLinkParameters order;
+    order.link = LinkId(fields.index("link"));
+    order.reset = flag_of(fields, "reset");
+    take_values(fields, link_parameter_names(), [&](const std::string& name, const nlohmann::json& value) {
+        const auto parameter = find_link_parameter(name);
+        const auto number = number_of(value);
+        if (parameter && number) order.values.push_back({*parameter, *number});
+        return parameter && number;
+    });
+    return order;
+}
+
+PageCommand command_of(PageFields& fields) {
     PageCommand command;
     command.name = fields.text("name");
     command.values = fields.numbers("values");
     return command;
 }
 
-Attach attach_of(Fields& fields) {
+Attach attach_of(PageFields& fields) {
     const double unlimited = std::numeric_limits<double>::infinity();
     Attach attach;
     attach.link = LinkId(fields.index("link", 0u));
@@ -145,7 +135,7 @@ Attach attach_of(Fields& fields) {
     return attach;
 }
 
-PageOrder order_of(Fields& fields) {
+PageOrder order_of(PageFields& fields) {
     PageOrder order;
     order.robot = RobotId(fields.index("robot"));
     const std::string action = fields.text("action");
@@ -161,6 +151,10 @@ PageOrder order_of(Fields& fields) {
         order.action = pull_of(fields);
     } else if (action == "joint") {
         order.action = joint_of(fields);
+    } else if (action == "joint_parameters") {
+        order.action = joint_parameters_of(fields);
+    } else if (action == "link_parameters") {
+        order.action = link_parameters_of(fields);
     } else if (action == "command") {
         order.action = command_of(fields);
     } else if (action == "attach") {
@@ -168,12 +162,14 @@ PageOrder order_of(Fields& fields) {
     } else if (action == "detach") {
         order.action = Detach{RobotId(fields.index("other", RobotId::kNone))};
     } else {
-        fields.fail("action", "pose, velocity, wrench, pull, joint, command, attach or detach");
+        fields.fail("action",
+                    "pose, velocity, wrench, pull, joint, joint_parameters, link_parameters, "
+                    "command, attach or detach");
     }
     return order;
 }
 
-std::vector<PictureWish> cameras_of(Fields& fields) {
+std::vector<PictureWish> cameras_of(PageFields& fields) {
     const nlohmann::json* list = fields.find("cameras");
     std::vector<PictureWish> wishes;
     if (list == nullptr) return wishes;
@@ -181,7 +177,7 @@ std::vector<PictureWish> cameras_of(Fields& fields) {
         return fields.fail("cameras", "a list of at most 16 cameras"), wishes;
     for (const nlohmann::json& one : *list) {
         if (!one.is_object()) return fields.fail("cameras", "a list of objects"), wishes;
-        Fields camera(one);
+        PageFields camera(one);
         PictureWish wish;
         wish.robot = RobotId(camera.index("robot"));
         wish.sensor = camera.index("sensor");
@@ -193,7 +189,23 @@ std::vector<PictureWish> cameras_of(Fields& fields) {
     return wishes;
 }
 
-PageWatch watch_of(Fields& fields) {
+std::optional<NumbersWish> numbers_of(PageFields& fields) {
+    const nlohmann::json* one = fields.find("numbers");
+    if (one == nullptr) return std::nullopt;
+    const char* wanted = "an object with robot and link, or robot, joint and axis";
+    if (!one->is_object()) return fields.fail("numbers", wanted), std::nullopt;
+    PageFields named(*one);
+    NumbersWish wish;
+    wish.robot = RobotId(named.index("robot"));
+    if (named.find("link") != nullptr)
+        wish.link = LinkId(named.index("link"));
+    else
+        wish.joint = JointId(named.index("joint")), wish.axis = axis_of(named);
+    if (!named.wrong().empty()) fields.fail("numbers", wanted);
+    return wish;
+}
+
+PageWatch watch_of(PageFields& fields) {
     PageWatch watch;
     const nlohmann::json none = nlohmann::json::array();
     const nlohmann::json* robots = fields.find("robots");
@@ -216,10 +228,11 @@ PageWatch watch_of(Fields& fields) {
     if (!(watch.rate >= 0)) fields.fail("rate", "a number from 0 on");
     watch.rate = std::min(watch.rate, static_cast<double>(viewer_protocol::kRateMax));
     watch.cameras = cameras_of(fields);
+    watch.numbers = numbers_of(fields);
     return watch;
 }
 
-PageDesk desk_of(Fields& fields, PageDesk::Kind kind) {
+PageDesk desk_of(PageFields& fields, PageDesk::Kind kind) {
     PageDesk desk;
     desk.kind = kind;
     if (kind == PageDesk::Kind::kKeep || (kind == PageDesk::Kind::kYield && fields.find("page") != nullptr))
@@ -251,7 +264,7 @@ Result<PageRequest> parse_page_request(std::string_view text) {
     if (too_deep(text)) return refused("it is nested too deeply");
     const nlohmann::json json = nlohmann::json::parse(text, nullptr, false);
     if (!json.is_object()) return refused("it is not a JSON object");
-    Fields fields(json);
+    PageFields fields(json);
     const std::string type = fields.text("type");
     PageRequest request;
     if (type != "watch" && type != "whole") request.id = static_cast<std::int64_t>(fields.index("id", 0u));

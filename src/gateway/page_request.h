@@ -37,13 +37,23 @@ struct PageCommand {
 };
 struct PageOrder {
     RobotId robot;
-    std::variant<SetPose, SetVelocity, PageWrench, PagePull, SetJoint, PageCommand, Attach, Detach> action;
+    std::variant<SetPose, SetVelocity, PageWrench, PagePull, SetJoint, SetJointParameters, SetLinkParameters,
+                 PageCommand, Attach, Detach>
+        action;
+};
+/// What a page sees all numbers of: one axis of a joint, or a link.
+struct NumbersWish {
+    RobotId robot;
+    JointId joint;  // not valid: of the link
+    int axis = 0;
+    LinkId link;
 };
 struct PageWatch {
     std::vector<RobotId> robots;
     bool contacts = false, radio = false, bounds = false, groups = false, profile = false;
     double rate = 30;  // States a second
     std::vector<PictureWish> cameras;
+    std::optional<NumbersWish> numbers;
 };
 struct PageWhole {};
 /// About control of the run, among pages (roles.h).

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 #include <random>
 
 namespace roboss {
@@ -52,6 +53,53 @@ TEST(PageRequest, UnderstandsCommandsAndBonds) {
     EXPECT_TRUE(std::isinf(grip.max_torque)) << "not given: it never lets go";
     EXPECT_EQ(std::get<Detach>(order(R"("action":"detach","other":4)").action).other, RobotId(4u));
     EXPECT_FALSE(std::get<Detach>(order(R"("action":"detach")").action).other.valid()) << "of all";
+}
+
+TEST(PageRequest, UnderstandsNumbersOfJointsAndLinks) {
+    const auto order = [](const std::string& rest) {
+        Result<PageRequest> request = parse_page_request(R"({"type":"order","id":6,"robot":7,)" + rest + "}");
+        EXPECT_TRUE(request.ok()) << request.error().text();
+        return std::get<PageOrder>(request.value().what);
+    };
+    const double infinity = std::numeric_limits<double>::infinity();
+    EXPECT_EQ(
+        std::get<SetJointParameters>(
+            order(
+                R"("action":"joint_parameters","joint":3,"axis":1,"values":{"damping":0.4,"lower":null,"upper":null})")
+                .action),
+        (SetJointParameters{JointId(3u),
+                            1,
+                            false,
+                            {{JointParameter::kDamping, 0.4},
+                             {JointParameter::kLower, -infinity},
+                             {JointParameter::kUpper, infinity}}}))
+        << "null is no bound, as in orders files";
+    EXPECT_EQ(
+        std::get<SetJointParameters>(order(R"("action":"joint_parameters","joint":3,"reset":true)").action),
+        (SetJointParameters{JointId(3u), 0, true, {}}));
+    EXPECT_EQ(
+        std::get<SetLinkParameters>(
+            order(R"("action":"link_parameters","link":2,"values":{"mass":3,"friction":0},"reset":true)")
+                .action),
+        (SetLinkParameters{LinkId(2u), true, {{LinkParameter::kFriction, 0}, {LinkParameter::kMass, 3}}}));
+}
+
+TEST(PageRequest, UnderstandsWhoseNumbersAPageSees) {
+    const auto wish = [](const std::string& numbers) {
+        const auto request = parse_page_request(R"({"type":"watch","robots":[7],"numbers":)" + numbers + "}");
+        EXPECT_TRUE(request.ok()) << request.error().text();
+        return std::get<PageWatch>(request.value().what).numbers.value();
+    };
+    const NumbersWish axis = wish(R"({"robot":7,"joint":4,"axis":1})"),
+                      link = wish(R"({"robot":7,"link":2})");
+    EXPECT_EQ(axis.robot, RobotId(7u));
+    EXPECT_EQ(axis.joint, JointId(4u));
+    EXPECT_EQ(axis.axis, 1);
+    EXPECT_FALSE(axis.link.valid());
+    EXPECT_EQ(link.link, LinkId(2u));
+    EXPECT_FALSE(link.joint.valid());
+    EXPECT_EQ(wish(R"({"robot":7,"joint":4})").axis, 0);
+    EXPECT_FALSE(std::get<PageWatch>(parse_page_request(R"({"type":"watch"})").value().what).numbers);
 }
 
 TEST(PageRequest, UnderstandsPullsReplacingPushesAndControl) {
@@ -127,6 +175,24 @@ TEST(PageRequest, RefusesWhatIsWrongByName) {
         {R"({"type":"order","robot":1,"action":"attach"})", "\"other\""},
         {R"({"type":"order","robot":1,"action":"attach","other":2,"max_force":"much"})", "\"max_force\""},
         {R"({"type":"order","robot":1,"action":"detach","other":-1})", "\"other\""},
+        {R"({"type":"order","robot":1,"action":"joint_parameters","values":{"damping":1}})", "\"joint\""},
+        {R"({"type":"order","robot":1,"action":"joint_parameters","joint":0,"values":[1]})", "\"values\""},
+        {R"({"type":"order","robot":1,"action":"joint_parameters","joint":0,"values":{"mass":1}})",
+         "\"values\""},
+        {R"({"type":"order","robot":1,"action":"joint_parameters","joint":0,"values":{"damping":null}})",
+         "\"values\""},
+        {R"({"type":"order","robot":1,"action":"joint_parameters","joint":0,"values":{"damping":"1"}})",
+         "\"values\""},
+        {R"({"type":"order","robot":1,"action":"joint_parameters","joint":0,"reset":1})", "\"reset\""},
+        {R"({"type":"order","robot":1,"action":"link_parameters","values":{"mass":1}})", "\"link\""},
+        {R"({"type":"order","robot":1,"action":"link_parameters","link":0,"values":{"mass":null}})",
+         "\"values\""},
+        {R"({"type":"order","robot":1,"action":"link_parameters","link":0,"values":{"damping":1}})",
+         "\"values\""},
+        {R"({"type":"watch","numbers":7})", "\"numbers\""},
+        {R"({"type":"watch","numbers":{"robot":1}})", "\"numbers\""},
+        {R"({"type":"watch","numbers":{"robot":1,"link":-1}})", "\"numbers\""},
+        {R"({"type":"watch","numbers":{"link":1}})", "\"numbers\""},
         {R"({"type":"watch","robots":[1,2,3,4,5,6,7,8,9]})", "\"robots\""},
         {R"({"type":"watch","rate":-3})", "\"rate\""},
         {R"({"type":"watch","cameras":7})", "\"cameras\""},

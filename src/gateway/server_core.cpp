@@ -220,6 +220,7 @@ void ServerCore::watch_changed() {
         rate = std::max(rate, watch.rate);
         robots.insert(watch.robots.begin(), watch.robots.end());
         for (const PictureWish& wish : watch.cameras) robots.insert(wish.robot);
+        if (watch.numbers) robots.insert(watch.numbers->robot);
         request.cameras = request.cameras || !watch.cameras.empty();
     }
     request.anyone = request.anyone || !scene_waiters_.empty();
@@ -371,6 +372,9 @@ void ServerCore::send_exact() {
             if (text.empty()) text = inspector_.robot(robot);
             page->send(text, true);
         }
+        if (const auto& wish = page->watch().numbers; wish && inspector_.shows(wish->robot))
+            if (std::string text = inspector_.numbers(*wish); !text.empty())
+                page->send(std::move(text), true);
         if (!inspector_.complete()) continue;
         if (page->watch().contacts) {
             if (contacts.empty()) contacts = inspector_.contacts();

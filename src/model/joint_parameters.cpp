@@ -7,7 +7,7 @@
 #include <tuple>
 
 #include "core/fixed_math.h"
-#include "model/joint_motion.h"
+#include "model/joint_parameter_texts.h"
 #include "model/own_number_lists.h"
 #include "model/robot_state.h"
 #include "world/joint_type.h"
@@ -110,11 +110,8 @@ class AxisCheck {
     Result<> check_value(const JointParameterValue& one, const JointParameterInfo& row) const {
         const std::optional<NumberFault> fault = fault_of(one.parameter, one.value);
         if (!fault) return Ok{};
-        const auto motions = joint_type(joint_.kind).motions;
-        const auto motion = std::min(static_cast<std::size_t>(order_.axis), motions.size() - 1);
-        const bool turns = joint_traits(motions[motion]).turns;
         return Error{std::string("'") + row.name + "' of " + called_ + " is " + number_text(one.value) + " " +
-                         (turns ? row.turning : row.sliding) + fault->text,
+                         unit_of(one.parameter, joint_, order_.axis) + fault->text,
                      fault->remedy, fault->code};
     }
 

@@ -110,6 +110,46 @@ TEST_F(Viewed, OrdersOfAPageAreObeyedAlsoInAPausedWorldAndAnswered) {
     EXPECT_NE(page.answer(6)->find("[unknown-request]"), std::string::npos) << *page.answer(6);
 }
 
+TEST_F(Viewed, OwnNumbersAreOrderedAndToldToThePageThatAsksForThem) {
+    const auto run = begin();
+    std::size_t cart = 0, wheel = 0;
+    while (model->robots[cart].name != "cart_2") ASSERT_LT(++cart, model->robots.size());
+    const RobotType& type = model->type_of(RobotId(cart));
+    while (type.joints[wheel].nv == 0) ASSERT_LT(++wheel, type.joints.size());
+    Browser page{ViewerUrl(run->url())}, other{ViewerUrl(run->url())};
+    Json wanted = watch({static_cast<int>(cart)});
+    wanted["numbers"] = {{"robot", cart}, {"joint", wheel}};
+    page.send(wanted);
+    other.send(watch({static_cast<int>(cart)}));
+    const auto damping = [&] {
+        for (const Json& row : (*page.last("numbers"))["numbers"])
+            if (row["name"] == "damping") return row;
+        return Json();
+    };
+    ASSERT_TRUE(page.until([&] { return page.last("numbers") != nullptr; }));
+    const double of_file = damping()["value"];
+    EXPECT_FALSE(damping().contains("file"));
+    const auto order = [&](int id, const Json& values) {
+        page.send({{"type", "order"},
+                   {"id", id},
+                   {"robot", cart},
+                   {"action", "joint_parameters"},
+                   {"joint", wheel},
+                   {"values", values}});
+        EXPECT_TRUE(page.until([&] { return page.answer(id).has_value(); }));
+        return page.answer(id).value_or("");
+    };
+    const std::string refused = order(1, {{"damping", -1}}), taken = order(2, {{"damping", of_file + 0.25}});
+    EXPECT_NE(refused.find("[bad-parameter]"), std::string::npos) << refused;
+    EXPECT_TRUE(taken.starts_with("yes")) << taken;
+    EXPECT_TRUE(page.until([&] { return damping()["value"] == of_file + 0.25; }));
+    EXPECT_EQ(damping()["file"], of_file);
+    const auto own = [&] { return other.last("robot") != nullptr && other.last("robot")->contains("own"); };
+    EXPECT_TRUE(other.until(own));
+    EXPECT_EQ((*other.last("robot"))["own"]["joints"][0]["values"], Json({{"damping", of_file + 0.25}}));
+    EXPECT_EQ(other.last("numbers"), nullptr) << "it did not ask";
+}
+
 TEST_F(Viewed, OnlyWhatMovesIsSentAgain) {
     LiveRunOptions options;
     options.paused = true;

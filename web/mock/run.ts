@@ -3,6 +3,7 @@
 import type { MemberStatus, OrderAction, SceneInfo } from "../src/wire/messages";
 import type { BookmarkInfo, Timeline } from "../src/wire/timeline";
 import { makeCity } from "./city";
+import { MockNumbers } from "./numbers";
 import { advance, makeTraffic, obey, type Traffic } from "./traffic";
 
 const KEPT_EVERY_S = 0.5;
@@ -23,6 +24,7 @@ export class MockRun {
     branch = 1;
     serial = 1;
     private bookmarks: BookmarkInfo[] = [];
+    readonly numbers: MockNumbers;
 
     constructor(
         cars: number,
@@ -32,6 +34,7 @@ export class MockRun {
     ) {
         const { scene, half } = makeCity(cars, seed);
         this.scene = scene;
+        this.numbers = new MockNumbers(scene);
         this.traffic = makeTraffic(scene, half, seed);
         for (let k = 0; k < simulators; ++k) this.join();
         this.keep();
@@ -187,7 +190,9 @@ export class MockRun {
 
     order(robot: number, action: OrderAction): { done: boolean; text: string } {
         if (this.scene.robots[robot] === undefined) return { done: false, text: `there is no robot ${robot}` };
-        const refusal = obey(this.traffic, robot, action, Math.round(this.traffic.time / this.scene.dt));
+        const refusal =
+            this.numbers.obey(robot, action) ??
+            obey(this.traffic, robot, action, Math.round(this.traffic.time / this.scene.dt));
         return {
             done: refusal === "",
             text: refusal === "" ? `applied at ${this.traffic.time.toFixed(3)} s` : refusal,

@@ -9,6 +9,7 @@ import { actingExtras } from "./acting";
 import { MockRun } from "./run";
 import { NO_TROUBLE, refusalText, troubleOf } from "./trouble";
 import { FLAG_PREVIEW } from "../src/protocol";
+import type { Watch } from "../src/wire/messages";
 import { encodeRobots, encodeState, groupsOf, overlayReport, profileReport, robotReport } from "./reports";
 
 const { values: options } = parseArgs({
@@ -73,7 +74,7 @@ class Page {
     private sent = new Map<number, Uint8Array>();
     private whole = true;
     private extras = JSON.stringify({ surfaces: [], bonds: [] });
-    private watch = { robots: [] as number[], overlays: [] as string[] };
+    private watch: Watch = { robots: [], overlays: [], rate: 30 };
 
     private readonly number = ++lastPage;
 
@@ -176,7 +177,9 @@ class Page {
         if (text !== this.extras) this.tell({ type: "extras", scene: run.scene.scene, tick: 0, ...extras });
         this.extras = text;
         for (const robot of this.watch.robots)
-            if (run.scene.robots[robot] !== undefined) this.tell(robotReport(run.traffic, run.scene, robot));
+            if (run.scene.robots[robot] !== undefined)
+                this.tell({ ...robotReport(run.traffic, run.scene, robot), ...run.numbers.own(robot) });
+        if (this.watch.numbers !== undefined) this.tell(run.numbers.report(this.watch.numbers));
         if (this.watch.overlays.includes("groups"))
             this.tell({ type: "groups", scene: run.scene.scene, ...groupsOf(run.traffic, run.scene, run.alive()) });
         if (this.watch.overlays.includes("profile")) this.tell(profileReport(run.traffic));

@@ -100,6 +100,7 @@ export const PAGE_OVERLAYS = [
 
 export type Overlay = 'contacts' | 'radio' | 'bounds' | 'groups';
 
-export type OrderAction = 'pose' | 'velocity' | 'wrench' | 'joint' | 'command' | 'attach' | 'detach';
+export type OrderAction = 'pose' | 'velocity' | 'wrench' | 'joint' | 'joint_parameters' | 'link_parameters' | 'command'
+    | 'attach' | 'detach';
 
 export type MotorMode = 'passive' | 'velocity' | 'position' | 'effort';

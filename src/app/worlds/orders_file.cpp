@@ -5,7 +5,6 @@
 #include <cmath>
 #include <fstream>
 #include <initializer_list>
-#include <limits>
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <stdexcept>
@@ -14,6 +13,7 @@
 #include "core/hex.h"
 #include "core/similar.h"
 #include "model/addressee.h"
+#include "model/joint_parameter_texts.h"
 #include "model/powerless_joints.h"
 #include "model/robot_names.h"
 #include "model/topics.h"
@@ -181,10 +181,8 @@ Action parse_joint(const json& o, const RobotType& type, const std::string& robo
 
 /// null: there is no bound.
 double parameter_value(const json& o, const std::string& key, JointParameter parameter) {
-    const bool unbounded = o[key].is_null() && info_of(parameter).endless;
-    if (!unbounded) return number(o, key.c_str());
-    const double infinity = std::numeric_limits<double>::infinity();
-    return parameter == JointParameter::kLower ? -infinity : infinity;
+    const std::optional<double> unbounded = value_of_null(parameter);
+    return o[key].is_null() && unbounded ? *unbounded : number(o, key.c_str());
 }
 
 Action parse_joint_parameters(const json& o, const RobotType& type, const std::string& robot) {

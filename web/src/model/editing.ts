@@ -2,7 +2,7 @@
 // because their numbers change with every robot that comes or goes.
 import { ADDITION_BYTES_MAX } from "../protocol";
 import { toRollPitchYaw } from "../kinematics/pose";
-import type { PoseArray, Triple } from "../wire/messages";
+import type { Answer, OrderAction, PoseArray, Triple } from "../wire/messages";
 import { freeName, modelNames } from "./names";
 import { halfHeight, type NewShape, shapeSdf } from "./new_shape";
 import type { Placement, Placing } from "./placing";
@@ -72,6 +72,21 @@ export class Editing {
         if (this.state.status.value?.paused === true)
             this.say(`The run is paused: ${few(to.map(({ name }) => name))} will be there with the next tick.`);
         this.undo.push({ name: `move ${few(to.map(({ name }) => name))}`, undo: put(from), redo: put(to) });
+    }
+
+    /** Gives a robot an order that another one takes back. */
+    async order(robot: number, name: string, action: OrderAction, back: OrderAction): Promise<Answer> {
+        const called = this.name(robot),
+            answer = await this.run.order(robot, action);
+        if (!answer.done) return answer;
+        if (this.state.status.value?.paused === true)
+            this.say(`The run is paused: ${called} obeys with the next tick.`);
+        const give = (one: OrderAction) => async () => {
+            const now = this.world?.fleet.find(called);
+            return now !== undefined && (await this.run.order(now, one)).done;
+        };
+        this.undo.push({ name: `${name} of ${called}`, undo: give(back), redo: give(action) });
+        return answer;
     }
 
     async remove(): Promise<void> {

@@ -38,6 +38,7 @@ export class RunLink {
             state.pinned,
             state.world,
             state.wantsProfile,
+            state.wantsNumbers,
             state.cameras.wishes,
         ])
             (signal as Signal<unknown>).follow(() => this.sendWatch());
@@ -100,6 +101,9 @@ export class RunLink {
                 break;
             case "robot":
                 if (message.scene === this.sceneNumber()) this.state.report.set(message);
+                break;
+            case "numbers":
+                if (message.scene === this.sceneNumber()) this.state.numbers.set(message);
                 break;
             case "overlay":
                 if (message.scene !== this.sceneNumber()) break;
@@ -220,6 +224,7 @@ export class RunLink {
         const watch: Watch = { robots: [...robots].slice(0, WATCHED_ROBOTS_MAX), overlays, rate: RATE_MAX },
             cameras = this.cameras();
         if (cameras !== undefined && cameras.length > 0) watch.cameras = cameras;
+        if (this.state.wantsNumbers.value !== null) watch.numbers = this.state.wantsNumbers.value;
         const text = JSON.stringify(watch);
         if (text === this.lastWatch) return;
         this.lastWatch = text;

@@ -2,6 +2,7 @@
 // none knows another.
 import type { Groups, RobotReport, Status } from "../wire/messages";
 import type { OverlayPart, OverlayReport } from "../wire/overlay";
+import type { NumbersReport, NumbersWish } from "../wire/numbers";
 import type { StepProfile } from "../wire/profile";
 import type { LinkState } from "../wire/connection";
 import type { Probe } from "../wire/probe";
@@ -90,6 +91,9 @@ export class ViewerState {
     /** The bond that the next robot chosen becomes part of. */
     readonly attaching = new Signal<Attaching | null>(null);
     readonly report = new Signal<RobotReport | null>(null);
+    /** The joint axis or link whose numbers are looked at; null: none. */
+    readonly wantsNumbers = new Signal<NumbersWish | null>(null);
+    readonly numbers = new Signal<NumbersReport | null>(null);
     readonly selected = new Signal<number | null>(null);
     /** Robots that are selected besides it (model/selection.ts). */
     readonly others = new Signal<readonly number[]>([]);

@@ -13,6 +13,7 @@ import type { SurfaceMotion } from "../wire/onboard";
 import { BondControls } from "./bond_controls";
 import { ChannelControls } from "./channel_controls";
 import { JointControls } from "./joint_controls";
+import { NumberControls } from "./number_controls";
 import { PoseFields } from "./pose_fields";
 import { ReadingRows } from "./reading_rows";
 import { SensorViews } from "./sensor_views";
@@ -43,6 +44,7 @@ export class Inspector {
     private sensors: SensorViews | null = null;
     private channels: ChannelControls | null = null;
     private bonds: BondControls | null = null;
+    private numbers: NumberControls | null = null;
     private surfaces: HTMLDetailsElement | null = null;
     private bondSection: HTMLDetailsElement | null = null;
     private contacts: HTMLElement | null = null;
@@ -60,6 +62,8 @@ export class Inspector {
         for (const signal of [state.selected, state.scenery] as { follow(call: () => void): unknown }[])
             signal.follow(() => (this.element.hidden = state.selected.value === null && state.scenery.value !== null));
         state.report.follow((report) => report !== null && this.show(report));
+        state.numbers.follow((numbers) => numbers !== null && this.numbers?.take(numbers));
+        state.roles.follow(() => this.numbers?.permit());
         plotted.curves.follow(() => this.rows?.mark());
     }
 
@@ -69,7 +73,8 @@ export class Inspector {
         this.built = false;
         this.rows = this.joints = this.sensors = this.contacts = null;
         this.channels = this.bonds = this.surfaces = this.bondSection = null;
-        this.pose = null;
+        this.pose = this.numbers = null;
+        this.state.wantsNumbers.set(null);
         if (world === null || robot === null) {
             this.element.replaceChildren(
                 h("p", { class: "empty" }, "Select a robot: click it in the picture, or in the list."),
@@ -122,6 +127,7 @@ export class Inspector {
         this.sensors = new SensorViews(type, rows, all.sensors);
         this.channels = new ChannelControls(robot, type, world.fleet.scene.dt, this.run);
         this.bonds = new BondControls(robot, world, this.state, this.run);
+        this.numbers = new NumberControls(robot, type, this.state, this.hands.editing);
         this.bondSection = section("Bonds", this.bonds.element);
         this.bondSection.open = false;
         this.surfaces = section("Moving surfaces", h("div", { class: "surfaces" }));
@@ -142,6 +148,7 @@ export class Inspector {
             type.joints.length > 0
                 ? section(`Joints (${type.joints.length})`, this.joints.element)
                 : h("span", { hidden: true }),
+            type.static === true || type.links.length === 0 ? h("span", { hidden: true }) : this.numbers.element,
             type.sensors.length > 0
                 ? section(`Sensors (${type.sensors.length})`, this.sensors.element)
                 : h("span", { hidden: true }),
@@ -161,6 +168,7 @@ export class Inspector {
         this.joints?.show(report);
         this.sensors?.show(report);
         this.channels?.show(report);
+        this.numbers?.show(report);
         if (this.bonds?.show(report) === true && this.bondSection !== null) this.bondSection.open = true;
         this.showSurfaces(world, report);
         this.showContacts(world, report);

@@ -2,6 +2,7 @@
 // radians; a pose is [x, y, z, qw, qx, qy, qz].
 import type { BondReport, ChannelInfo, ChannelReport, Extras, FlowInfo, OnboardAction, SurfaceReport } from "./onboard";
 import type { LightInfo, LookInfo } from "./look";
+import type { NumbersAction, NumbersReport, NumbersWish, OwnNumbers } from "./numbers";
 import type { StepProfile } from "./profile";
 import type { OverlayReport } from "./overlay";
 import type { Roles } from "./roles";
@@ -217,6 +218,8 @@ export interface RobotReport {
     surfaces?: SurfaceReport[];
     bonds?: BondReport[];
     held_by?: BondReport[];
+    /** Numbers of joints and links that differ from the file. */
+    own?: OwnNumbers;
 }
 
 export interface Hello {
@@ -246,6 +249,7 @@ export type Incoming =
     | Status
     | Groups
     | RobotReport
+    | NumbersReport
     | OverlayReport
     | StepProfile
     | Extras
@@ -272,6 +276,7 @@ export type OrderAction =
     | { action: "wrench"; link: number; force: Triple; torque: Triple; duration: number; replaces?: boolean }
     | PullAction
     | { action: "joint"; joint: number; axis: number; mode: string; target: number; max_effort?: number }
+    | NumbersAction
     | OnboardAction;
 
 export interface Watch {
@@ -279,4 +284,5 @@ export interface Watch {
     overlays: string[];
     rate: number;
     cameras?: { robot: number; sensor: number; columns: number; depth: boolean }[];
+    numbers?: NumbersWish;
 }

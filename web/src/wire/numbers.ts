@@ -1,0 +1,40 @@
+// Own numbers of robots, in the protocol (docs/viewer-protocol.md): damping, limits and gains of joint axes, masses and
+// friction of links. Types of the JSON. null is no bound.
+
+/** By name. */
+export type NumberValues = Record<string, number | null>;
+
+/** One axis of a joint, or a link. */
+export type NumbersPlace = { joint: number; axis: number } | { link: number };
+
+export type NumbersWish = { robot: number } & NumbersPlace;
+
+/** What differs from the file, of all joints and links of a robot. */
+export interface OwnNumbers {
+    joints?: { joint: number; axis: number; values: NumberValues }[];
+    links?: { link: number; values: NumberValues }[];
+}
+
+export interface NumberRow {
+    name: string;
+    unit: string;
+    value: number | null;
+    /** Of the file, where it differs. */
+    file?: number | null;
+    /** It may have no bound. */
+    endless?: boolean;
+}
+
+/** All numbers of the place that this page wants. */
+export type NumbersReport = {
+    type: "numbers";
+    scene: number;
+    robot: number;
+    tick: number;
+    numbers: NumberRow[];
+} & NumbersPlace;
+
+/** `reset`: all that are not named become those of the file. */
+export type NumbersAction = { values?: NumberValues; reset?: boolean } & (
+    { action: "joint_parameters"; joint: number; axis: number } | { action: "link_parameters"; link: number }
+);
