@@ -65,7 +65,8 @@ def test_a_branch_of_a_vector_environment_goes_on_with_its_draws(name, mode):
 
 def test_a_branch_of_a_single_agent_goes_on_with_its_draws_and_its_next_episode():
     env, rng = envs.CityEnv(traffic=3, threads=2, episode_s=2.5, randomize=TERMS), np.random.default_rng(5)
-    env.reset(seed=5)
+    seen = env.reset(seed=5)[0]
+    assert (seen == env.task.observations()[0]).all() and (seen != env.task.observe()[0]).any()  # with noise
     for _ in range(5):
         env.step(rng.uniform(-0.3, 0.3, 2))
     branches, ended = env.branch(2).branch(2), 0
@@ -92,7 +93,7 @@ def test_branches_of_a_parallel_environment_go_on_with_its_draws():
     for _ in range(5):
         env.step({agent: np.array([1, 0], dtype=np.float32) for agent in env.agents})
     branches = env.branch(2) + env.branch(1)[0].branch(1)
-    for step in range(60):
+    for _ in range(60):
         actions = {agent: np.array([1, rng.uniform(-1, 1)], dtype=np.float32) for agent in env.agents}
         result = env.step(actions)
         for one in branches:
@@ -100,8 +101,9 @@ def test_branches_of_a_parallel_environment_go_on_with_its_draws():
             np.testing.assert_equal(state(one.task), state(env.task))
         assert {one.state_hash for one in branches} == {env.state_hash}
     assert len(env.agents) < 6 and env.task.randomizer.save().draws[KICK].max() > 0
+    seen = env.reset()[0]
     for one in branches:
-        same(one.reset()[0], env.reset()[0]) if one is branches[0] else one.reset()
+        same(one.reset()[0], seen)
         assert one.state_hash == env.state_hash
 
 
@@ -136,3 +138,15 @@ def test_branches_of_branches_and_a_pickle_go_on_with_the_draws():
             same(rows(one.step(np.tile(actions, (4, 1))), 3, env.num_envs), result)
             agree(one, range(4), env)
     assert twigs.state_hashes == again.state_hashes == 4 * env.state_hashes
+
+
+def test_branches_that_act_differently_meet_the_same_draws():
+    env = begun(VECTORS["city"], 0, randomize=TERMS)
+    branches, count = env.branch(2), env.num_envs
+    actions = np.repeat([0.3, -0.3], count)[:, None] * np.ones(2)
+    for _ in range(20):
+        branches.step(actions)
+    one, other = branches.task.parts
+    assert (branches.task.age == 20).all() and branches.state_hashes[0] != branches.state_hashes[1]  # nobody began again
+    assert one.randomizer.save().draws[KICK].min() >= 0
+    same(one.randomizer.drawn, other.randomizer.drawn)
