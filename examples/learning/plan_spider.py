@@ -26,7 +26,7 @@ with needed():
     from walking import MOST_TURN, PERIOD, STAND, TURN_CHANGE, TURN_GAIN, upright, yaw_of
 
 PLAIN = EXAMPLES / "spider" / "gaits" / "walk.toml"
-# What an action changes of the plain gait: from -1 to 1, with 0 for its own value.
+# An action changes these numbers of the plain gait: from -1 to 1, with 0 for its own value.
 RANGES = {"period_s": (0.18, 0.9), "duty": (0.36, 0.65), "stride": (0.04, 0.22), "lift": (0.02, 0.06),
           "height": (0.09, 0.15), "reach": (0.15, 0.29), "lead_s": (0.0, 0.035)}
 HORIZON_S, TAKEN_S = 0.75, 0.25  # how far a branch walks; how much of the best one is taken

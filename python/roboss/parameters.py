@@ -18,7 +18,7 @@ Names = Union[str, Iterable[str], None]
 
 
 class _Parameters:
-    """What JointParameters and LinkParameters have in common. `_part`: "joints" or "links"."""
+    """The common part of JointParameters and LinkParameters. `_part`: "joints" or "links"."""
     _part: str
     _names: list[str]
 
@@ -49,7 +49,7 @@ class _Parameters:
         self._set(None, {text("name", name): values})
 
     def of_file(self, name: str) -> Floats:
-        """What the world's file has, an array as of `parameters[name]`, whatever own numbers the robots have."""
+        """The numbers of the world's file, an array as of `parameters[name]`, whatever own numbers the robots have."""
         return self._read(name, True)
 
     def _number(self, name: str) -> int:
@@ -72,7 +72,7 @@ class _Parameters:
         return out
 
     def _for_all(self, name: str, values: Floats) -> Floats:
-        """What is assigned to all columns."""
+        """The values that an assignment to all columns gives."""
         return values
 
     def _width(self) -> int:

@@ -55,7 +55,7 @@ def same(one, other):
 
 
 def plain(value):
-    """What numpy compares, also of arrays of arrays."""
+    """A form that numpy compares, also of arrays of arrays."""
     if isinstance(value, dict):
         return {name: plain(inner) for name, inner in value.items()}
     is_nested = isinstance(value, tuple) or (isinstance(value, np.ndarray) and value.dtype == object)
@@ -72,7 +72,7 @@ def begun(make, steps, seed=1, **options):
 
 
 def rows(result, copy_number, count):
-    """What one copy of `count` agents gave, of a result of step() of branches."""
+    """The part of one copy of `count` agents in a result of step() of branches."""
     mine = slice(copy_number * count, (copy_number + 1) * count)
 
     def of(values):

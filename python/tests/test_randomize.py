@@ -36,7 +36,7 @@ def farthest(values, probability):
 
 @pytest.fixture(scope="module")
 def samples():
-    """What 16 cars with 4 joints draw in 160 episodes, by distribution: (episodes, 64)."""
+    """The draws of 16 cars with 4 joints in 160 episodes, by distribution: (episodes, 64)."""
     terms = [joint("damping", uniform(2, 4), name="uniform"),
              joint("damping", log_uniform(0.01, 10), name="log_uniform"),
              joint("damping", normal(3, 0.5), name="normal"),

@@ -1,4 +1,4 @@
-// What a page reads of the own numbers of a robot: of those that differ from its type's in the JSON of
+// Pages read own numbers of a robot in this form: those that differ from its type's in the JSON of
 // "robot", and of all numbers of a joint axis or link in that of "numbers" (docs/viewer-protocol.md).
 #pragma once
 

@@ -1,4 +1,4 @@
-// What a page reads of numbers of joints and links: those of the robot, and those of its file where they
+// Pages read numbers of joints and links in this form: those of the robot, and those of its file where they
 // differ.
 #include "gateway/numbers_json.h"
 

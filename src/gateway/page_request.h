@@ -41,7 +41,7 @@ struct PageOrder {
                  PageCommand, Attach, Detach>
         action;
 };
-/// What a page sees all numbers of: one axis of a joint, or a link.
+/// A page sees all numbers of this: one axis of a joint, or a link.
 struct NumbersWish {
     RobotId robot;
     JointId joint;  // not valid: of the link

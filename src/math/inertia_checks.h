@@ -1,4 +1,4 @@
-// Whether a matrix can be the inertia of a body about its centre of mass.
+// Tests if a matrix can be the inertia of a body about its centre of mass.
 #pragma once
 
 #include <algorithm>
@@ -21,8 +21,8 @@ inline bool obeys_triangle_inequality(const Mat3& inertia) {
     return positive_definite(Mat3::diagonal(half, half, half) - inertia);
 }
 
-/// Of the greatest moment: less is lost in rounding. The mass matrix is singular then, and the state soon not
-/// finite (seen below 1e-15).
+/// A share of the greatest moment: less is lost in rounding. The mass matrix is singular then, and the state
+/// soon not finite (seen below 1e-15).
 inline constexpr double kVanishingShare = 1e-12;
 
 /// About every axis there is more than what is lost in rounding.

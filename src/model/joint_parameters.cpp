@@ -58,7 +58,7 @@ bool is_rotor(JointParameter parameter) {
     return parameter == JointParameter::kArmature;
 }
 
-/// Whether no order sets this number of a joint of this kind, unless to 0 of a rotor.
+/// True if no order sets this number of a joint of this kind, unless to 0 of a rotor.
 bool lacks(const RobotType& type, const Joint& joint, JointParameter parameter) {
     if (joint_type(joint.kind).is_isotropic() && !info_of(parameter).of_balls) return true;
     return is_rotor(parameter) && (joint.loop >= 0 || !type.elimination.empty());

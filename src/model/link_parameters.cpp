@@ -63,7 +63,7 @@ std::optional<NumberFault> fault_of(LinkParameter parameter, double value) {
     return std::nullopt;
 }
 
-/// Of the six numbers from kInertiaXx.
+/// The matrix of the six numbers from kInertiaXx.
 Mat3 matrix_of(const std::array<double, kInertias>& i) {
     return {{i[0], i[3], i[4]}, {i[3], i[1], i[5]}, {i[4], i[5], i[2]}};
 }

@@ -1,4 +1,4 @@
-// What the numbers of joints and those of links have in common: their tables, faults and sorted lists.
+// Tables, faults and sorted lists of the numbers of joints and of those of links.
 // Internal to the model layer.
 #pragma once
 
@@ -43,7 +43,7 @@ std::string names_of_rows(std::span<const Row> rows) {
     return names;
 }
 
-/// What is wrong with the list of an order for `called`, whatever the numbers are. `names`: of all
+/// Refuses the list of an order for `called`, whatever the numbers are. `names`: of all
 /// parameters.
 template <class Order>
 Result<> check_list(const Order& order, const std::string& called, std::size_t parameters,

@@ -11,7 +11,7 @@
 namespace roboss {
 namespace {
 
-/// What follows from masses and rotor inertias, computed as compile() does.
+/// Renews all that follows from masses and rotor inertias, as compile() computes it.
 void renew_masses(RobotType& type) {
     type.mass = 0;
     for (const Body& body : type.bodies) type.mass += body.mass;

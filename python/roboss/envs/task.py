@@ -149,7 +149,7 @@ class Task(ABC):
         return self._result(rng)
 
     def _result(self, rng: np.random.Generator) -> Outcome:
-        """What the agents get after the worlds were stepped."""
+        """Rewards, ends and infos of the agents after the worlds were stepped."""
         self.age += self.present
         rewards, terminated, infos = self.outcome(rng)
         truncated = self.present & ~terminated & (self.age >= self.episode_steps)
@@ -175,7 +175,7 @@ class Task(ABC):
         """Called when the environment gets a new seed, with its generator: for generators beside that one."""
 
     def observations(self) -> NDArray[np.float32]:
-        """What each agent gets to see, (count, ...): `observe`, with the noise of `randomize`, within the space."""
+        """The observations that agents get, (count, ...): `observe`, with the noise of `randomize`, within the space."""
         seen = self.observe()
         if self.randomizer is None:
             return seen
@@ -183,7 +183,7 @@ class Task(ABC):
 
     @abstractmethod
     def observe(self) -> NDArray[np.float32]:
-        """What each agent sees now, (count, ...). It may be called more than once at a tick, and changes nothing."""
+        """The observation of each agent now, (count, ...). It may be called more than once at a tick, and changes nothing."""
 
     @abstractmethod
     def place(self, agents: Mask, rng: np.random.Generator) -> None:

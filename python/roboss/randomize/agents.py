@@ -18,7 +18,7 @@ Rows = NDArray[np.int64]  #: numbers of some agents
 
 
 class Agents:
-    """What a Randomizer randomises. Agents of simulation i come after those of simulation i - 1."""
+    """The robots that a Randomizer draws for. Agents of simulation i come after those of simulation i - 1."""
 
     def __init__(self, robots: Union[Robots, PaddedRobots]):
         self.simulations: list[Simulation]
@@ -49,7 +49,7 @@ class Agents:
         return [member for member in self.members if len(member)]
 
     def ticks(self) -> Rows:
-        """Of each agent's simulation, (agents,)."""
+        """The number of each agent's simulation, (agents,)."""
         return np.repeat([one.tick for one in self.simulations], np.diff(self._first))
 
     def parts(self, chosen: Mask) -> Iterator[tuple[Robots, Rows]]:
@@ -65,7 +65,7 @@ class Agents:
                 yield member if rows.size == last - first else member[rows], first + rows
 
     def mask(self, agents: Optional[ArrayLike]) -> Mask:
-        """Of a mask of robots, as their arrays have it, of one of simulations, or of one of agents; None: all."""
+        """Makes a mask of agents of one of robots, as their arrays have it, of one of simulations, or of one of agents; None: all."""
         if agents is None:
             return np.ones(self.count, dtype=bool)
         given = np.asarray(agents)
@@ -103,7 +103,7 @@ class Agents:
 
     @staticmethod
     def saves(robots: list[Robots]) -> list[tuple[Simulation, Save]]:
-        """Of the simulations of these robots, with each simulation once."""
+        """The saved states of these robots' simulations, with each simulation once."""
         found = {id(one._core): one for part in robots for one in _simulations_of(part.simulation)}
         return [(one, one.save()) for one in found.values()]
 

@@ -15,7 +15,7 @@ Floats = NDArray[np.float64]
 
 
 class Distribution(ABC):
-    """Of a number, or of each column of a row. `uniform`, `log_uniform`, `normal` and `choice` make one.
+    """A distribution of a number, or of each column of a row. `uniform`, `log_uniform`, `normal` and `choice` make one.
 
     Attributes:
         low, high: bounds of what it gives, () or (columns,); infinite: none.
@@ -26,7 +26,7 @@ class Distribution(ABC):
 
     @property
     def columns(self) -> Optional[int]:
-        """How many columns it is for; None: any number, all alike."""
+        """The number of columns that it is for; None: any number, all alike."""
         return None if self.low.ndim == 0 else len(self.low)
 
     @abstractmethod

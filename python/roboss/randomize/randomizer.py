@@ -101,17 +101,17 @@ class Randomizer:
 
     @property
     def seed(self) -> int:
-        """Of the draws."""
+        """The seed of the draws."""
         return self._seed
 
     @property
     def begun(self) -> bool:
-        """Whether all robots were reset since the start or the last `reseed`."""
+        """True if all robots were reset since the start or the last `reseed`."""
         return bool(self._begun.all())
 
     @property
     def drawn(self) -> dict[str, Floats]:
-        """What was drawn last, by the name of the term: (N, columns), of a Batch (B, N, columns), of padded robots
+        """The last draws, by the name of the term: (N, columns), of a Batch (B, N, columns), of padded robots
         (B, most, columns). NaN: nothing yet. Of a number that is scaled it is the factor, of noise what is added."""
         return {term.name: self._agents.arrays(rows) for term, rows in zip(self.terms, self._draws)}
 
@@ -303,7 +303,7 @@ class Randomizer:
             self._due[number, agent] = since[agent] + max(1, round((least + (most - least) * share) / self._agents.dt))
 
     def _fill(self, number: int, chosen: Mask) -> None:
-        """What these agents draw, by the numbers of their draws."""
+        """The draws of these agents, by the numbers of their draws."""
         term, blocks, (block, row) = self.terms[number], self._blocks[number], np.divmod(self._numbers[number], ROWS)
         for agent in map(int, np.flatnonzero(chosen & (block != self._block[number]))):
             blocks[agent] = term.draw(self._stream(term.name, agent, int(block[agent])), *blocks.shape[1:])

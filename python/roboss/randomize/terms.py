@@ -42,16 +42,16 @@ class Term(ABC):
 
     @property
     def acts(self) -> bool:
-        """Whether it does something at a moment, and is nothing that lasts until the next draw."""
+        """True if it acts at a moment, and does not last until the next draw."""
         return False
 
     @property
     def shared(self) -> bool:
-        """Whether all columns get one and the same number."""
+        """True if all columns get one and the same number."""
         return False
 
     def draw(self, numbers: np.random.Generator, rows: int, columns: int) -> Floats:
-        """What a robot gets in some draws, (rows, columns), or (rows, 1) for all columns."""
+        """The numbers that a robot gets in some draws, (rows, columns), or (rows, 1) for all columns."""
         return self.distribution.sample(numbers, rows, 1 if self.shared else columns)
 
     @abstractmethod
@@ -136,7 +136,7 @@ class NoiseTerm(Term):
 
 @dataclass(frozen=True, eq=False)
 class LatencyTerm(Term):
-    """How many steps later an action is carried out."""
+    """The number of steps after which an action is carried out."""
 
     def draw(self, numbers: np.random.Generator, rows: int, columns: int) -> Floats:
         return np.rint(self.distribution.sample(numbers, rows, columns))

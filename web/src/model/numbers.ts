@@ -45,13 +45,13 @@ export function numbersAction(place: NumbersPlace, values: NumberValues, reset: 
         : { action: "joint_parameters", joint: place.joint, axis: place.axis, ...what };
 }
 
-/** What differs from the file at this place. */
+/** The numbers that differ from the file at this place. */
 export function ownAt(own: OwnNumbers | undefined, place: NumbersPlace): NumberValues {
     const all = "link" in place ? own?.links : own?.joints;
     return all?.find((one) => samePlace(one, place))?.values ?? {};
 }
 
-/** How many numbers of the robot differ from the file. */
+/** The count of numbers of the robot that differ from the file. */
 export function ownCount(own: OwnNumbers | undefined): number {
     return [...(own?.joints ?? []), ...(own?.links ?? [])].reduce(
         (sum, { values }) => sum + Object.keys(values).length,

@@ -9,7 +9,7 @@ export type NumbersPlace = { joint: number; axis: number } | { link: number };
 
 export type NumbersWish = { robot: number } & NumbersPlace;
 
-/** What differs from the file, of all joints and links of a robot. */
+/** The numbers that differ from the file, of all joints and links of a robot. */
 export interface OwnNumbers {
     joints?: { joint: number; axis: number; values: NumberValues }[];
     links?: { link: number; values: NumberValues }[];
@@ -19,7 +19,7 @@ export interface NumberRow {
     name: string;
     unit: string;
     value: number | null;
-    /** Of the file, where it differs. */
+    /** The number of the file, where it differs. */
     file?: number | null;
     /** It may have no bound. */
     endless?: boolean;
