@@ -131,60 +131,58 @@ void set_joints(Robots& robots, const std::vector<std::size_t>& columns, std::ui
     });
 }
 
-void fill_link_parameters(Robots& robots, std::size_t parameter, bool of_file, const Out& out) {
-    const auto which = static_cast<LinkParameter>(parameter);
-    robots.for_each(numbers(out), [&](RunAccess& run, std::span<double> part) {
-        if (of_file)
-            robots.set().file_link_parameters(which, part);
-        else
-            robots.set().link_parameters(run, which, part);
-    });
-}
-
-void set_link_parameters(Robots& robots, const std::vector<std::size_t>& links,
-                         const std::vector<std::size_t>& parameters, const In& values) {
-    std::vector<LinkParameter> which;
-    for (const std::size_t parameter : parameters) which.push_back(static_cast<LinkParameter>(parameter));
-    Result<> done = Ok{};
-    robots.for_each(numbers(values), [&](RunAccess& run, std::span<const double> part) {
-        if (done) done = robots.set().set_link_parameters(run, links, which, part);
-    });
-    finish_change(robots, done);
-}
-
-void reset_link_parameters(Robots& robots, const std::vector<std::size_t>& links) {
-    Result<> done = Ok{};
-    for (const auto& simulation : robots.simulations)
-        if (done) done = robots.set().reset_link_parameters(simulation->access(), links);
-    finish_change(robots, done);
-}
-
+/// Fills the array of one number of all joints or links: what robots have (Read), or what the file has
+/// (ReadFile).
+template <class Parameter, auto Read, auto ReadFile>
 void fill_parameters(Robots& robots, std::size_t parameter, bool of_file, const Out& out) {
-    const auto which = static_cast<JointParameter>(parameter);
+    const auto which = static_cast<Parameter>(parameter);
     robots.for_each(numbers(out), [&](RunAccess& run, std::span<double> part) {
         if (of_file)
-            robots.set().file_parameters(which, part);
+            (robots.set().*ReadFile)(which, part);
         else
-            robots.set().joint_parameters(run, which, part);
+            (robots.set().*Read)(run, which, part);
     });
 }
 
+template <class Parameter, auto Set>
 void set_parameters(Robots& robots, const std::vector<std::size_t>& columns,
                     const std::vector<std::size_t>& parameters, const In& values) {
-    std::vector<JointParameter> which;
-    for (const std::size_t parameter : parameters) which.push_back(static_cast<JointParameter>(parameter));
+    std::vector<Parameter> which;
+    for (const std::size_t parameter : parameters) which.push_back(static_cast<Parameter>(parameter));
     Result<> done = Ok{};
     robots.for_each(numbers(values), [&](RunAccess& run, std::span<const double> part) {
-        if (done) done = robots.set().set_joint_parameters(run, columns, which, part);
+        if (done) done = (robots.set().*Set)(run, columns, which, part);
     });
     finish_change(robots, done);
 }
 
+template <auto Reset>
 void reset_parameters(Robots& robots, const std::vector<std::size_t>& columns) {
     Result<> done = Ok{};
     for (const auto& simulation : robots.simulations)
-        if (done) done = robots.set().reset_joint_parameters(simulation->access(), columns);
+        if (done) done = (robots.set().*Reset)(simulation->access(), columns);
     finish_change(robots, done);
+}
+
+/// Methods for the numbers of joints and links.
+void bind_parameters(nb::class_<Robots>& robots) {
+    using Joint = JointParameter;
+    using Link = LinkParameter;
+    robots
+        .def("joint_parameters",
+             &fill_parameters<Joint, &RobotSet::joint_parameters, &RobotSet::file_parameters>,
+             nb::arg("parameter"), nb::arg("of_file"), nb::arg("out"))
+        .def("set_joint_parameters", &set_parameters<Joint, &RobotSet::set_joint_parameters>,
+             nb::arg("columns"), nb::arg("parameters"), nb::arg("values"))
+        .def("reset_joint_parameters", &reset_parameters<&RobotSet::reset_joint_parameters>,
+             nb::arg("columns"))
+        .def("link_parameters",
+             &fill_parameters<Link, &RobotSet::link_parameters, &RobotSet::file_link_parameters>,
+             nb::arg("parameter"), nb::arg("of_file"), nb::arg("out"))
+        .def("set_link_parameters", &set_parameters<Link, &RobotSet::set_link_parameters>, nb::arg("columns"),
+             nb::arg("parameters"), nb::arg("values"))
+        .def("reset_link_parameters", &reset_parameters<&RobotSet::reset_link_parameters>,
+             nb::arg("columns"));
 }
 
 Robots make_robots(Simulations simulations, const std::vector<std::uint32_t>& ids) {
@@ -197,8 +195,8 @@ Robots make_robots(Simulations simulations, const std::vector<std::uint32_t>& id
 }  // namespace
 
 void bind_robots(nb::module_& module) {
-    nb::class_<Robots>(module, "Robots")
-        .def("pose", &live<Property::kPose>, nb::arg("single"))
+    nb::class_<Robots> bound(module, "Robots");
+    bound.def("pose", &live<Property::kPose>, nb::arg("single"))
         .def("twist", &live<Property::kTwist>, nb::arg("single"))
         .def("joint_position", &live<Property::kJointPosition>, nb::arg("single"))
         .def("joint_velocity", &live<Property::kJointVelocity>, nb::arg("single"))
@@ -213,15 +211,6 @@ void bind_robots(nb::module_& module) {
         .def("set_joint_velocities", &set<&RobotSet::set_joint_velocities>, nb::arg("velocities"))
         .def("set_joints", &set_joints, nb::arg("columns"), nb::arg("mode"), nb::arg("targets"),
              nb::arg("max_effort"), nb::arg("position_gain").none(), nb::arg("velocity_gain").none())
-        .def("joint_parameters", &fill_parameters, nb::arg("parameter"), nb::arg("of_file"), nb::arg("out"))
-        .def("set_joint_parameters", &set_parameters, nb::arg("columns"), nb::arg("parameters"),
-             nb::arg("values"))
-        .def("reset_joint_parameters", &reset_parameters, nb::arg("columns"))
-        .def("link_parameters", &fill_link_parameters, nb::arg("parameter"), nb::arg("of_file"),
-             nb::arg("out"))
-        .def("set_link_parameters", &set_link_parameters, nb::arg("links"), nb::arg("parameters"),
-             nb::arg("values"))
-        .def("reset_link_parameters", &reset_link_parameters, nb::arg("links"))
         .def(
             "apply_wrenches",
             [](Robots& r, std::optional<std::size_t> link, const In& wrenches, Tick ticks) {
@@ -238,6 +227,7 @@ void bind_robots(nb::module_& module) {
                 });
             },
             nb::arg("channel"), nb::arg("values"), nb::arg("rows"));
+    bind_parameters(bound);
     std::vector<std::tuple<std::string, std::string, std::string>> parameters;
     for (const JointParameterInfo& row : joint_parameters())
         parameters.emplace_back(row.name, row.turning, row.sliding);

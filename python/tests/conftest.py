@@ -63,6 +63,16 @@ def analysis_command(*words, folder="."):
 
 
 @pytest.fixture
+def sim():
+    """Cars that drive, with an order that has not taken effect yet."""
+    sim = roboss.Simulation(REPOSITORY / "worlds/crossroads.sdf", threads=2, seed=3)
+    sim.robots("car_*").set_joint_targets(9.0)
+    sim.step(200)
+    sim.robots("car_1*").set_joint_targets(-4.0)
+    return sim
+
+
+@pytest.fixture
 def crossroads():
     """A simulation of sixteen cars on a ring."""
     return roboss.Simulation(roboss.example("crossroads.sdf"), threads=1)

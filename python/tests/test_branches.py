@@ -28,16 +28,6 @@ COPIED = pytest.mark.parametrize("copied", [copy.deepcopy, lambda thing: pickle.
                                  ids=["deepcopy", "pickle"])
 
 
-@pytest.fixture
-def sim():
-    """Cars that drive, with an order that has not taken effect yet."""
-    sim = roboss.Simulation(WORLD, threads=2, seed=3)
-    sim.robots("car_*").set_joint_targets(9.0)
-    sim.step(200)
-    sim.robots("car_1*").set_joint_targets(-4.0)
-    return sim
-
-
 def after(sim, ticks=73):
     """The hash after some ticks, and what a sensor reads that has noise and is due at other times than ticks."""
     sim.step(ticks)

@@ -23,16 +23,6 @@ def command(*arguments):
     return json.loads(subprocess.run([str(word) for word in words], capture_output=True, text=True, check=True).stdout)
 
 
-@pytest.fixture
-def sim():
-    """Cars that drive, with an order that has not taken effect yet."""
-    sim = roboss.Simulation(WORLD, threads=2, seed=3)
-    sim.robots("car_*").set_joint_targets(9.0)
-    sim.step(200)
-    sim.robots("car_1*").set_joint_targets(-4.0)
-    return sim
-
-
 def after(sim, ticks=150):
     """The hash after an order that follows those that wait, and some ticks."""
     sim.robots("car_12").set_joint_targets(2.0)

@@ -5,10 +5,9 @@
 #include <cmath>
 #include <memory>
 
-#include <support/compare_lanes.h>
 #include <support/mechanisms.h>
+#include <support/own_numbers.h>
 #include <support/robots.h>
-#include <support/simulation.h>
 
 #include "model/order.h"
 
@@ -20,11 +19,7 @@ using enum LinkParameter;
 
 /// Gives a link of a robot these numbers, at once.
 void set_link(Simulation& sim, std::size_t robot, LinkId link, LinkValues values) {
-    const Order order{sim.tick, ClientId(0u), 0, sim.ids[robot],
-                      SetLinkParameters{link, false, std::move(values)}};
-    const Result<> checked = check_order(*sim.model, order);
-    ASSERT_TRUE(checked.ok()) << checked.error().text();
-    apply_order(*sim.model, order, sim.states[robot]);
+    give(sim, robot, SetLinkParameters{link, false, std::move(values)});
 }
 
 /// Another link like this one.
@@ -113,18 +108,7 @@ void expect_equal_runs(const Scene& scene, Precision precision) {
         for (const LinkSpec& link : written.links)
             if (link.mass > 0) set_link(b, r, *b.type(r).find_link(link.name), numbers_of(link));
     expect_equal_types(a.type(0), type_of(b.type(0), b.states[0]));
-    for (int i = 0; i < 250; ++i) {
-        drive(a), drive(b);
-        a.step(), b.step();
-        for (std::size_t r = 0; r < a.states.size(); ++r) {
-            RobotState without = b.states[r];
-            ASSERT_FALSE(without.own.empty());
-            without.own = {};
-            ASSERT_EQ(state_hash(a.ids[r], a.tick, a.states[r]), state_hash(a.ids[r], a.tick, without))
-                << "robot " << r << ", tick " << i;
-        }
-        ASSERT_EQ(a.bounds, b.bounds);
-    }
+    expect_equal_steps(a, b, drive, 250);
 }
 
 TEST(OwnLinks, MoveARobotAsAFileWithTheseNumbersDoes) {
