@@ -166,7 +166,7 @@ class JointParameters(_Parameters):
 
 
 class LinkParameters(_Parameters):
-    """LinkParameters: numbers of the links of some robots. Robots.link_parameters makes it; N is the number of robots.
+    """Numbers of the links of some robots. Robots.link_parameters makes it; N is the number of robots.
 
     As JointParameters: a robot has the numbers of the file until it is given own ones, which are part of its state; what
     is assigned is in effect at once (of a RemoteSimulation from the next tick on); if one robot refuses it (OrderError),
@@ -205,7 +205,8 @@ class LinkParameters(_Parameters):
         """Sets several parameters of some links in one go: of each robot all, or, if one robot refuses, of none.
 
         Args:
-            links: names of the columns of the arrays; None: all links that have the parameters.
+            links: names of the columns of the arrays; None: all links that have the parameters. Numbers of an inertia
+                that are not given beside others of it stay as they are, also beside a new mass.
             values: by the name of the parameter, (N, links); one row for all robots; one number.
 
         >>> arm = roboss.Simulation(roboss.example("arm.sdf")).robots("arm")

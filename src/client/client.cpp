@@ -7,6 +7,7 @@
 
 #include "core/similar.h"
 #include "model/addressee.h"
+#include "model/link_value.h"
 #include "model/topics.h"
 
 namespace roboss {
@@ -154,7 +155,7 @@ double Client::joint_parameter(const RobotRef& robot, const JointRef& joint, Joi
 std::optional<double> Client::link_parameter(const RobotRef& robot, const LinkRef& link,
                                              LinkParameter parameter) const {
     const RobotId id = this->robot(robot);
-    return link_number(type_of(model().type_of(id), state(id)), this->link(id, link), parameter);
+    return link_value(model().type_of(id), state(id), this->link(id, link), parameter);
 }
 
 OrderResult Client::set_pose(const RobotRef& robot, const Pose& X_WR) {

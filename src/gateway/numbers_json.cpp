@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "model/joint_parameter_texts.h"
+#include "model/link_value.h"
 #include "world/joint_type.h"
 
 namespace roboss {
@@ -54,16 +55,6 @@ Json axis_numbers(const RobotType& type, const RobotState& state, const NumbersW
     return list;
 }
 
-/// The number that the robot has; `of_type` is that of its type. An inertia that it was not given grows with
-/// its own mass; all others are as in the file.
-double link_value(const RobotType& type, const RobotState& state, LinkId link, LinkParameter parameter,
-                  double of_type) {
-    for (const OwnLinkNumber& one : state.own.links)
-        if (one.link == link && one.number.parameter == parameter) return one.number.value;
-    if (parameter < LinkParameter::kInertiaXx || parameter > LinkParameter::kInertiaYz) return of_type;
-    return link_number(type_of(type, state), link, parameter).value_or(of_type);
-}
-
 Json link_numbers(const RobotType& type, const RobotState& state, LinkId link) {
     Json list = Json::array();
     for (std::size_t i = 0; i < kLinkParameters; ++i) {
@@ -71,7 +62,7 @@ Json link_numbers(const RobotType& type, const RobotState& state, LinkId link) {
         const std::optional<double> of_type = link_number(type, link, parameter);
         if (!of_type) continue;
         const LinkParameterInfo& row = info_of(parameter);
-        const double value = link_value(type, state, link, parameter, *of_type);
+        const double value = link_value(type, state, link, parameter).value_or(*of_type);
         list.push_back(row_json(row.name, row.unit, value, *of_type));
     }
     return list;

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "math/array_rows.h"
+#include "model/link_value.h"
 #include "physics/dynamics/kinematics.h"
 #include "physics/dynamics/motor_effort.h"
 #include "world/joint_type.h"
@@ -55,14 +56,11 @@ void add_other_limit(const RobotType& type, const RobotState& state, SetJointPar
 }
 
 /// An inertia is ordered as a whole: of an order with a part of it, the rest as it is.
-void add_other_inertias(const RobotType& type, SetLinkParameters& own) {
-    const auto is_inertia = [](const LinkParameterValue& one) {
-        return one.parameter >= LinkParameter::kInertiaXx && one.parameter <= LinkParameter::kInertiaYz;
-    };
-    if (std::ranges::none_of(own.values, is_inertia)) return;
+void add_other_inertias(const RobotType& type, const RobotState& state, SetLinkParameters& own) {
+    if (std::ranges::none_of(own.values, is_inertia, &LinkParameterValue::parameter)) return;
     for (auto p = LinkParameter::kInertiaXx; p <= LinkParameter::kInertiaYz;
          p = static_cast<LinkParameter>(static_cast<int>(p) + 1)) {
-        const std::optional<double> now = link_number(type, own.link, p);
+        const std::optional<double> now = link_value(type, state, own.link, p);
         if (now && std::ranges::count(own.values, p, &LinkParameterValue::parameter) == 0)
             own.values.push_back({p, *now});
     }
@@ -144,10 +142,10 @@ void RobotSet::file_parameters(JointParameter parameter, std::span<double> out) 
 
 void RobotSet::link_parameters(const RunAccess& run, LinkParameter parameter, std::span<double> out) const {
     for (std::size_t i = 0; i < size(); ++i) {
-        const RobotType& type = type_of(type_of_row(i), run.state(robots_[i]));
         double* to = row(out, i, shared_.links.size());
         for (const SharedPart& link : shared_.links)
-            *to++ = link_number(type, LinkId(part_of(link, i)), parameter).value_or(std::nan(""));
+            *to++ = link_value(type_of_row(i), run.state(robots_[i]), LinkId(part_of(link, i)), parameter)
+                        .value_or(std::nan(""));
     }
 }
 
@@ -285,7 +283,7 @@ Result<> RobotSet::set_link_parameters(RunAccess& run, std::span<const std::size
                 if (!std::isnan(value)) own.values.push_back({parameters[p], value});
             }
             if (own.values.empty()) continue;
-            add_other_inertias(type_of(type_of_row(i), run.state(robots_[i])), own);
+            add_other_inertias(type_of_row(i), run.state(robots_[i]), own);
             orders.push_back({run.tick(), ClientId(0U), 0, robots_[i], std::move(own)});
         }
     return change_all(run, orders);

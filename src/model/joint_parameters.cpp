@@ -211,12 +211,16 @@ bool may_own(const RobotType& type, std::span<const OwnJointNumber> own) {
         if (axis < 0 || axis >= info.nv || static_cast<std::size_t>(number.parameter) >= kJointParameters ||
             fault_of(number.parameter, number.value) || lacks(type, info, number.parameter))
             return false;
+        const Dof& of_type = type.dof(info, axis);
+        if (number.value == of_type.*info_of(number.parameter).member) return false;
     }
-    RobotType with = type;
-    put_numbers(own, with);
     return std::ranges::all_of(own, [&](const OwnJointNumber& one) {
-        const Joint& joint = type.joints[one.joint.index()];
-        return are_within(with.dof(joint, one.axis), type.dof(joint, one.axis));
+        const Dof& of_type = type.dof(type.joints[one.joint.index()], one.axis);
+        Dof with = of_type;
+        for (const OwnJointNumber& other : own)
+            if (other.joint == one.joint && other.axis == one.axis)
+                with.*info_of(other.number.parameter).member = other.number.value;
+        return are_within(with, of_type);
     });
 }
 

@@ -8,6 +8,7 @@
 
 #include "math/inertia_checks.h"
 #include "model/compile_type.h"
+#include "model/link_value.h"
 #include "model/own_number_lists.h"
 #include "model/robot_state.h"
 
@@ -36,10 +37,6 @@ constexpr std::array<LinkParameterInfo, kLinkParameters> kLinkRows{{
     {"torsional_friction", "", true, &Material::torsional_mu},
     {"rolling_friction", "m", true, &Material::rolling},
 }};
-
-bool is_inertia(LinkParameter parameter) {
-    return parameter >= kInertiaXx && parameter <= kInertiaYz;
-}
 
 bool is_of_surface(LinkParameter parameter) {
     return info_of(parameter).surface != nullptr;
@@ -185,10 +182,21 @@ constexpr auto kPlaceOfLinkNumber = [](const OwnLinkNumber& one) {
     return std::tuple(one.link, one.number.parameter);
 };
 
+/// True if the link has this number in the type: of a surface, all of its shapes.
+bool has_number(const RobotType& type, LinkId link, const LinkParameterValue& number) {
+    if (!is_of_surface(number.parameter)) return link_number(type, link, number.parameter) == number.value;
+    return std::ranges::all_of(type.shapes, [&](const BodyShape& shape) {
+        if (shape.link != link) return true;
+        Material with = shape.material;
+        put_surface(number.parameter, number.value, with);
+        return with.*info_of(number.parameter).surface == shape.material.*info_of(number.parameter).surface;
+    });
+}
+
 /// Forgets numbers of a link that are those of the type. An inertia is one number here.
 void forget_equal(const RobotType& type, LinkId link, std::vector<OwnLinkNumber>& own) {
     const auto is_equal = [&](const OwnLinkNumber& one) {
-        return one.link == link && link_number(type, link, one.number.parameter) == one.number.value;
+        return one.link == link && has_number(type, link, one.number);
     };
     const auto keeps_inertia = [&](const OwnLinkNumber& one) {
         return one.link == link && is_inertia(one.number.parameter) && !is_equal(one);
@@ -284,6 +292,7 @@ std::optional<double> link_number(const RobotType& type, LinkId link, LinkParame
 }
 
 bool may_own(const RobotType& type, std::span<const OwnLinkNumber> own) {
+    std::vector<OwnLinkNumber> kept(own.begin(), own.end());
     for (std::size_t i = 0; i < own.size();) {
         SetLinkParameters order;
         order.link = own[i].link;
@@ -292,8 +301,9 @@ bool may_own(const RobotType& type, std::span<const OwnLinkNumber> own) {
             order.values.push_back(own[i].number);
         }
         if (!check_link_parameters("", type, order)) return false;
+        forget_equal(type, order.link, kept);
     }
-    return true;
+    return kept.size() == own.size();
 }
 
 bool put_numbers(std::span<const OwnLinkNumber> own, RobotType& type) {

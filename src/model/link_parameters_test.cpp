@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <limits>
 
 #include <support/mechanisms.h>
@@ -24,6 +25,7 @@ class LinkParameters : public testing::Test {
         ModelSpec directed = car();
         directed.links[2].collisions[0].surface.fdir1 = {1, 0, 0};
         directed.links[2].collisions[0].surface.mu2 = 0.25;
+        directed.links[0].collisions.push_back(sphere_shape(0.02, surface(0.2), {{0, 0, 0.1}, {}}));
         place(world, directed, "car");
         place(world, four_bar(), "bar");
         place(world, pendulum(), "bare");
@@ -55,6 +57,9 @@ class LinkParameters : public testing::Test {
     }
     const RobotType& type() const { return model->type_of(kCar); }
     const RobotType& own() const { return type_of(type(), state); }
+    const BodyShape& wheel_shape() const {
+        return *std::ranges::find(own().shapes, kWheel, &BodyShape::link);
+    }
 
     std::shared_ptr<const Model> model;
     RobotState state;
@@ -120,7 +125,7 @@ TEST_F(LinkParameters, AreReadAsTheyWereGiven) {
     EXPECT_EQ(link_number(own(), kWheel, kFriction), 0.4);
     EXPECT_EQ(link_number(own(), kWheel, kRollingFriction), 0.002);
     EXPECT_EQ(link_number(own(), kWheel, kFrictionAcross), std::nullopt);
-    EXPECT_EQ(own().shapes[1].material.mu2, 0.4) << "the same in all directions";
+    EXPECT_EQ(wheel_shape().material.mu2, 0.4) << "the same in all directions";
     EXPECT_EQ(link_number(type(), kWheel, kMass), 0.3) << "of the file";
     for (const LinkParameter p : {kInertiaXx, kInertiaYy, kInertiaZz})
         EXPECT_NEAR(*link_number(own(), kWheel, p), 2.5 * *link_number(type(), kWheel, p), 1e-15)
@@ -146,6 +151,18 @@ TEST_F(LinkParameters, ThatAreTheTypesAgainLeaveNoTrace) {
     give({{kFriction, 0.4}}), give({{kMass, 0.75}});
     EXPECT_EQ(hash(), changed) << "in any order";
     give({}, true);
+    EXPECT_EQ(hash(), before);
+}
+
+TEST_F(LinkParameters, OfASurfaceAreThoseOfAllShapesOfTheLink) {
+    const LinkId chassis(0u);
+    ASSERT_EQ(type().shapes[1].link, chassis);
+    ASSERT_NE(type().shapes[0].material.mu, type().shapes[1].material.mu);
+    const std::uint64_t before = hash();
+    give({{kFriction, type().shapes[0].material.mu}}, false, chassis);
+    EXPECT_NE(hash(), before) << "the second shape has another number";
+    EXPECT_EQ(own().shapes[1].material.mu, type().shapes[0].material.mu);
+    give({}, true, chassis);
     EXPECT_EQ(hash(), before);
 }
 
@@ -175,7 +192,7 @@ TEST_F(LinkParameters, TravelAsBytes) {
     EXPECT_EQ(again.bodies[1].mass, own().bodies[1].mass);
     EXPECT_EQ(again.bodies[0].p_BC, own().bodies[0].p_BC);
     EXPECT_EQ(again.bodies[0].inverse_mass_linear, own().bodies[0].inverse_mass_linear);
-    EXPECT_EQ(again.shapes[1].material.mu, 0.4);
+    EXPECT_EQ(again.shapes[2].material.mu, 0.4);
 }
 
 TEST_F(LinkParameters, ThatNoOrderGivesAreRefusedAsBytes) {
@@ -185,6 +202,7 @@ TEST_F(LinkParameters, ThatNoOrderGivesAreRefusedAsBytes) {
     };
     EXPECT_FALSE(refused({{kWheel, {kMass, 1}}}));
     EXPECT_TRUE(refused({{kWheel, {kMass, -1}}}));
+    EXPECT_TRUE(refused({{kWheel, {kMass, 0.3}}})) << "that of the type";
     EXPECT_TRUE(refused({{kWheel, {kMass, 1}}, {kWheel, {kMass, 2}}}));
     EXPECT_TRUE(refused({{kWheel, {kFriction, 1}}, {kWheel, {kMass, 2}}})) << "not sorted";
     EXPECT_TRUE(refused({{LinkId(9u), {kMass, 1}}}));

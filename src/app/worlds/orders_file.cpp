@@ -185,43 +185,44 @@ double parameter_value(const json& o, const std::string& key, JointParameter par
     return o[key].is_null() && unbounded ? *unbounded : number(o, key.c_str());
 }
 
-Action parse_joint_parameters(const json& o, const RobotType& type, const std::string& robot) {
-    if (!o.is_object()) throw LineFault("joint_parameters is not a JSON object", "write {\"...\": ...}");
-    SetJointParameters order;
-    order.joint = named_joint(o, type, robot);
-    for (const auto& [key, value] : o.items()) {
-        if (key == "name") continue;
-        if (key == "axis") {
-            order.axis = static_cast<int>(number(o, "axis"));
-        } else if (key == "reset") {
-            if (!value.is_boolean()) throw LineFault("'reset' is not true or false", "write true");
-            order.reset = value.get<bool>();
-        } else if (const auto parameter = find_joint_parameter(key)) {
-            order.values.push_back({*parameter, parameter_value(o, key, *parameter)});
-        } else {
-            throw LineFault("'" + key + "' is not a key of joint_parameters",
-                            "known keys: name, axis, reset, " + joint_parameter_names());
-        }
-    }
-    return order;
-}
-
-Action parse_link_parameters(const json& o, const RobotType& type, const std::string& robot) {
-    if (!o.is_object()) throw LineFault("link_parameters is not a JSON object", "write {\"...\": ...}");
-    SetLinkParameters order;
-    order.link = named_link(o, "name", type, robot);
+/// Reads "reset" and the numbers of an order that takes both; take(key) says false of a key that it does not
+/// know. `known`: all keys but these two and "name".
+template <class Order, class Take>
+void read_numbers(const json& o, const std::string& what, const std::string& known, Order& order,
+                  const Take& take) {
+    if (!o.is_object()) throw LineFault(what + " is not a JSON object", "write {\"...\": ...}");
     for (const auto& [key, value] : o.items()) {
         if (key == "name") continue;
         if (key == "reset") {
             if (!value.is_boolean()) throw LineFault("'reset' is not true or false", "write true");
-            order.reset = value.get<bool>();
-        } else if (const auto parameter = find_link_parameter(key)) {
-            order.values.push_back({*parameter, number(o, key.c_str())});
-        } else {
-            throw LineFault("'" + key + "' is not a key of link_parameters",
-                            "known keys: name, reset, " + link_parameter_names());
+            order.reset = value.template get<bool>();
+        } else if (!take(key)) {
+            throw LineFault("'" + key + "' is not a key of " + what, "known keys: name, reset, " + known);
         }
     }
+}
+
+Action parse_joint_parameters(const json& o, const RobotType& type, const std::string& robot) {
+    SetJointParameters order;
+    read_numbers(o, "joint_parameters", "axis, " + joint_parameter_names(), order,
+                 [&](const std::string& key) {
+                     if (key == "axis") return order.axis = static_cast<int>(number(o, "axis")), true;
+                     const auto parameter = find_joint_parameter(key);
+                     if (parameter) order.values.push_back({*parameter, parameter_value(o, key, *parameter)});
+                     return parameter.has_value();
+                 });
+    order.joint = named_joint(o, type, robot);
+    return order;
+}
+
+Action parse_link_parameters(const json& o, const RobotType& type, const std::string& robot) {
+    SetLinkParameters order;
+    read_numbers(o, "link_parameters", link_parameter_names(), order, [&](const std::string& key) {
+        const auto parameter = find_link_parameter(key);
+        if (parameter) order.values.push_back({*parameter, number(o, key.c_str())});
+        return parameter.has_value();
+    });
+    order.link = named_link(o, "name", type, robot);
     return order;
 }
 
