@@ -49,7 +49,7 @@ class SpiderTask(roboss.envs.Task):
                          ticks=round(PERIOD / world.dt), **{"episode_steps": 10**6, **options})
         self.gaits, self.plain = gaits, gaits.load(PLAIN)
         self.columns = [gaits.names.index(name) for name in RANGES]
-        self.cycles = np.zeros(self.count)  # steps of every foot since the start; the gaits change, this goes on
+        self.cycles = np.zeros(self.count)  # steps of every foot since the start; it continues when the gait changes
         self.turns = np.zeros(self.count)   # rad a stride, to keep the heading
         self.x = np.zeros(self.count)       # m
 

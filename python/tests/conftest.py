@@ -62,6 +62,14 @@ def analysis_command(*words, folder="."):
     return end.value.code, out.getvalue(), errors.getvalue()
 
 
+def refuse_one(robots, parameters, name, values, code):
+    """Assigns numbers of which one robot of the crossroads, car_11, refuses its own, and nothing is changed."""
+    before = robots.simulation.state_hash
+    with pytest.raises(roboss.OrderError) as refused:
+        parameters[name] = values
+    assert refused.value.code == code and "car_11" in str(refused.value) and robots.simulation.state_hash == before
+
+
 @pytest.fixture
 def sim():
     """Cars that drive, with an order that has not taken effect yet."""

@@ -1,4 +1,4 @@
-"""Branches of simulations and environments, and training that is killed and resumed: all go on with the same bits."""
+"""Branches of simulations and environments, and training that is killed and resumed: all continue with the same bits."""
 import copy
 import pickle
 import signal
@@ -360,7 +360,7 @@ def test_training_that_is_killed_goes_on_with_the_same_bits(tmp_path):
         return lines
 
     whole = train("whole.pickle", 60)
-    first = train("killed.pickle", 1000, kill_after=25)  # it goes on to 20, or to 30, where it was saved last
+    first = train("killed.pickle", 1000, kill_after=25)  # it runs to step 20, or to 30, where it was saved last
     second = train("killed.pickle", 1000, kill_after=17)
     last = train("killed.pickle", 60)
     assert len(whole) == 60 and first == whole[:25]

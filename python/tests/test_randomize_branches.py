@@ -1,4 +1,4 @@
-"""Branches of environments with `randomize=`: they go on with the original's draws, each with a randomizer of its own."""
+"""Branches of environments with `randomize=`: they continue the original's draws, each with a randomizer of its own."""
 import dataclasses
 import pickle
 
@@ -147,6 +147,6 @@ def test_branches_that_act_differently_meet_the_same_draws():
     for _ in range(20):
         branches.step(actions)
     one, other = branches.task.parts
-    assert (branches.task.age == 20).all() and branches.state_hashes[0] != branches.state_hashes[1]  # nobody began again
+    assert (branches.task.age == 20).all() and branches.state_hashes[0] != branches.state_hashes[1]  # no episode began again
     assert one.randomizer.save().draws[KICK].min() >= 0
     same(one.randomizer.drawn, other.randomizer.drawn)

@@ -24,6 +24,18 @@ void read_axes(const RobotSet& set, std::span<double> out, Number number) {
             *to++ = number(set.type_of_row(i), set.robots()[i], axis);
 }
 
+/// number(type, robot, link) of each link that all robots have, row by row; not a number where it is none.
+template <class Number>
+void read_links(const RobotSet& set, std::span<double> out, Number number) {
+    const SharedParts& shared = set.shared();
+    ROBOSS_CHECK(out.size() == set.size() * shared.links.size(), std::to_string(out.size()) + " numbers");
+    double* to = out.data();
+    for (std::size_t i = 0; i < set.size(); ++i)
+        for (const SharedPart& link : shared.links)
+            *to++ = number(set.type_of_row(i), set.robots()[i], LinkId(link.of[shared.type_of_row[i]]))
+                        .value_or(std::nan(""));
+}
+
 void read_joints(const RobotSet& set, const RunAccess& run, double JointState::*value,
                  std::span<double> out) {
     read_axes(set, out, [&](const RobotType& type, RobotId robot, const JointAxis& axis) {
@@ -141,20 +153,15 @@ void RobotSet::file_parameters(JointParameter parameter, std::span<double> out) 
 }
 
 void RobotSet::link_parameters(const RunAccess& run, LinkParameter parameter, std::span<double> out) const {
-    for (std::size_t i = 0; i < size(); ++i) {
-        double* to = row(out, i, shared_.links.size());
-        for (const SharedPart& link : shared_.links)
-            *to++ = link_value(type_of_row(i), run.state(robots_[i]), LinkId(part_of(link, i)), parameter)
-                        .value_or(std::nan(""));
-    }
+    read_links(*this, out, [&](const RobotType& type, RobotId robot, LinkId link) {
+        return link_value(type, run.state(robot), link, parameter);
+    });
 }
 
 void RobotSet::file_link_parameters(LinkParameter parameter, std::span<double> out) const {
-    for (std::size_t i = 0; i < size(); ++i) {
-        double* to = row(out, i, shared_.links.size());
-        for (const SharedPart& link : shared_.links)
-            *to++ = link_number(type_of_row(i), LinkId(part_of(link, i)), parameter).value_or(std::nan(""));
-    }
+    read_links(*this, out, [&](const RobotType& type, RobotId, LinkId link) {
+        return link_number(type, link, parameter);
+    });
 }
 
 void RobotSet::energies(const RunAccess& run, std::span<double> out) const {
@@ -187,25 +194,24 @@ Result<> RobotSet::give(RunAccess& run, std::size_t orders_per_row, const Action
     return run.order(std::move(orders));
 }
 
-Result<> RobotSet::change(RunAccess& run, const ActionOfRow& action) const {
+Result<> RobotSet::change(RunAccess& run, std::size_t orders_per_row, const ActionOfRow& action) const {
+    std::vector<Order> orders;
+    orders.reserve(size() * orders_per_row);
     for (std::size_t i = 0; i < size(); ++i)
-        if (Result<> fine = check_order(*model_, {run.tick(), ClientId(0U), 0, robots_[i], action(i, 0)});
-            !fine)
-            return fine;
-    for (std::size_t i = 0; i < size(); ++i)
-        if (Result<> done = run.change(robots_[i], action(i, 0)); !done) return done;
-    return Ok{};
+        for (std::size_t k = 0; k < orders_per_row; ++k)
+            orders.push_back({run.tick(), ClientId(0U), 0, robots_[i], action(i, k)});
+    return change_all(run, orders);
 }
 
 Result<> RobotSet::set_poses(RunAccess& run, std::span<const double> poses) const {
     ROBOSS_CHECK(poses.size() == size() * kPoseColumns, std::to_string(poses.size()) + " numbers");
-    return change(run,
+    return change(run, 1,
                   [&](std::size_t i, std::size_t) { return SetPose{pose_at(&poses[i * kPoseColumns])}; });
 }
 
 Result<> RobotSet::set_twists(RunAccess& run, std::span<const double> twists) const {
     ROBOSS_CHECK(twists.size() == size() * kTwistColumns, std::to_string(twists.size()) + " numbers");
-    return change(run, [&](std::size_t i, std::size_t) {
+    return change(run, 1, [&](std::size_t i, std::size_t) {
         const double* at = &twists[i * kTwistColumns];
         return SetVelocity{vec3_at(at), vec3_at(at + 3)};
     });
@@ -244,29 +250,21 @@ Result<> RobotSet::set_joint_parameters(RunAccess& run, std::span<const std::siz
                                         std::span<const double> values) const {
     const std::size_t width = parameters.size() * columns.size();
     ROBOSS_CHECK(values.size() == size() * width, std::to_string(values.size()) + " numbers");
-    std::vector<Order> orders;
-    orders.reserve(size() * columns.size());
-    for (std::size_t i = 0; i < size(); ++i)
-        for (std::size_t k = 0; k < columns.size(); ++k) {
-            const JointAxis& axis = axes_of_row(i)[columns[k]];
-            SetJointParameters own{axis.joint, axis.axis, false, {}};
-            for (std::size_t p = 0; p < parameters.size(); ++p)
-                own.values.push_back({parameters[p], values[i * width + p * columns.size() + k]});
-            add_other_limit(type_of_row(i), run.state(robots_[i]), own);
-            orders.push_back({run.tick(), ClientId(0U), 0, robots_[i], std::move(own)});
-        }
-    return change_all(run, orders);
+    return change(run, columns.size(), [&](std::size_t i, std::size_t k) {
+        const JointAxis& axis = axes_of_row(i)[columns[k]];
+        SetJointParameters own{axis.joint, axis.axis, false, {}};
+        for (std::size_t p = 0; p < parameters.size(); ++p)
+            own.values.push_back({parameters[p], values[i * width + p * columns.size() + k]});
+        add_other_limit(type_of_row(i), run.state(robots_[i]), own);
+        return own;
+    });
 }
 
 Result<> RobotSet::reset_joint_parameters(RunAccess& run, std::span<const std::size_t> columns) const {
-    std::vector<Order> orders;
-    for (std::size_t i = 0; i < size(); ++i)
-        for (const std::size_t column : columns) {
-            const JointAxis& axis = axes_of_row(i)[column];
-            orders.push_back({run.tick(), ClientId(0U), 0, robots_[i],
-                              SetJointParameters{axis.joint, axis.axis, true, {}}});
-        }
-    return change_all(run, orders);
+    return change(run, columns.size(), [&](std::size_t i, std::size_t k) {
+        const JointAxis& axis = axes_of_row(i)[columns[k]];
+        return SetJointParameters{axis.joint, axis.axis, true, {}};
+    });
 }
 
 Result<> RobotSet::set_link_parameters(RunAccess& run, std::span<const std::size_t> links,
@@ -290,12 +288,9 @@ Result<> RobotSet::set_link_parameters(RunAccess& run, std::span<const std::size
 }
 
 Result<> RobotSet::reset_link_parameters(RunAccess& run, std::span<const std::size_t> links) const {
-    std::vector<Order> orders;
-    for (std::size_t i = 0; i < size(); ++i)
-        for (const std::size_t link : links)
-            orders.push_back({run.tick(), ClientId(0U), 0, robots_[i],
-                              SetLinkParameters{LinkId(part_of(shared_.links[link], i)), true, {}}});
-    return change_all(run, orders);
+    return change(run, links.size(), [&](std::size_t i, std::size_t k) {
+        return SetLinkParameters{LinkId(part_of(shared_.links[links[k]], i)), true, {}};
+    });
 }
 
 Result<> RobotSet::set_joint_positions(RunAccess& run, std::span<const double> positions) const {

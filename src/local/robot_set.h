@@ -129,7 +129,7 @@ class RobotSet {
     /// The action number `k` of a row.
     using ActionOfRow = std::function<Action(std::size_t row, std::size_t k)>;
     Result<> give(RunAccess& run, std::size_t orders_per_row, const ActionOfRow& action) const;
-    Result<> change(RunAccess& run, const ActionOfRow& action) const;
+    Result<> change(RunAccess& run, std::size_t orders_per_row, const ActionOfRow& action) const;
     Result<> change_all(RunAccess& run, const std::vector<Order>& orders) const;
     Result<> change_joints(RunAccess& run, std::span<const double> values,
                            std::vector<double> SetJointState::*kind) const;

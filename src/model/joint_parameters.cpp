@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <tuple>
+#include <utility>
 
 #include "core/fixed_math.h"
 #include "model/joint_parameter_texts.h"
@@ -64,9 +64,11 @@ bool lacks(const RobotType& type, const Joint& joint, JointParameter parameter) 
     return is_rotor(parameter) && (joint.loop >= 0 || !type.elimination.empty());
 }
 
-constexpr auto kPlaceOfJointNumber = [](const OwnJointNumber& one) {
-    return std::tuple(one.joint, one.axis, one.number.parameter);
-};
+constexpr auto kAxisOf = [](const OwnJointNumber& one) { return std::pair(one.joint, one.axis); };
+
+bool has_number(const Dof& dof, const JointParameterValue& number) {
+    return dof.*info_of(number.parameter).member == number.value;
+}
 
 /// Checks the numbers of one axis, and names what is wrong.
 class AxisCheck {
@@ -187,41 +189,43 @@ void apply_joint_parameters(const RobotType& type, const SetJointParameters& ord
     const Joint& joint = type.joints[order.joint.index()];
     const Dof before = dof_of(type, state, joint, order.axis);
     OwnNumbers own = state.own;
-    const auto is_of_axis = [&](const OwnJointNumber& one) {
-        return one.joint == order.joint && one.axis == order.axis;
-    };
-    if (order.reset) std::erase_if(own.joints, is_of_axis);
-    for (const JointParameterValue& one : order.values)
-        put_number(OwnJointNumber{order.joint, order.axis, one}, kPlaceOfJointNumber, own.joints);
-    const Dof& of_type = type.dof(joint, order.axis);
-    std::erase_if(own.joints, [&](const OwnJointNumber& one) {
-        return is_of_axis(one) && one.number.value == of_type.*info_of(one.number.parameter).member;
+    const auto its = std::ranges::equal_range(own.joints, std::pair(order.joint, order.axis), {}, kAxisOf);
+    std::vector<JointParameterValue> numbers;
+    if (!order.reset)
+        for (const OwnJointNumber& one : its) numbers.push_back(one.number);
+    for (const JointParameterValue& one : order.values) put_number(one, numbers);
+    std::erase_if(numbers, [&](const JointParameterValue& one) {
+        return has_number(type.dof(joint, order.axis), one);
     });
+    auto at = own.joints.erase(its.begin(), its.end());
+    for (const JointParameterValue& one : numbers)
+        at = own.joints.insert(at, {order.joint, order.axis, one}) + 1;
     set_own(type, std::move(own), state);
     fit_motor(before, dof_of(type, state, joint, order.axis),
               state.motors[type.motor_index(joint, order.axis)]);
 }
 
 bool may_own(const RobotType& type, std::span<const OwnJointNumber> own) {
-    for (std::size_t i = 0; i < own.size(); ++i) {
-        if (i > 0 && kPlaceOfJointNumber(own[i - 1]) >= kPlaceOfJointNumber(own[i])) return false;
-        const auto& [joint, axis, number] = own[i];
-        if (joint.index() >= type.joints.size()) return false;
-        const Joint& info = type.joints[joint.index()];
-        if (axis < 0 || axis >= info.nv || static_cast<std::size_t>(number.parameter) >= kJointParameters ||
-            fault_of(number.parameter, number.value) || lacks(type, info, number.parameter))
+    for (std::size_t i = 0; i < own.size();) {
+        const auto axis = kAxisOf(own[i]);
+        if (axis.first.index() >= type.joints.size()) return false;
+        const Joint& joint = type.joints[axis.first.index()];
+        if (axis.second < 0 || axis.second >= joint.nv || (i > 0 && kAxisOf(own[i - 1]) >= axis))
             return false;
-        const Dof& of_type = type.dof(info, axis);
-        if (number.value == of_type.*info_of(number.parameter).member) return false;
-    }
-    return std::ranges::all_of(own, [&](const OwnJointNumber& one) {
-        const Dof& of_type = type.dof(type.joints[one.joint.index()], one.axis);
+        const Dof& of_type = type.dof(joint, axis.second);
         Dof with = of_type;
-        for (const OwnJointNumber& other : own)
-            if (other.joint == one.joint && other.axis == one.axis)
-                with.*info_of(other.number.parameter).member = other.number.value;
-        return are_within(with, of_type);
-    });
+        for (std::size_t first = i; i < own.size() && kAxisOf(own[i]) == axis; ++i) {
+            const JointParameterValue& number = own[i].number;
+            const bool is_sorted = i == first || own[i - 1].number.parameter < number.parameter;
+            if (!is_sorted || static_cast<std::size_t>(number.parameter) >= kJointParameters ||
+                fault_of(number.parameter, number.value) || lacks(type, joint, number.parameter) ||
+                has_number(of_type, number))
+                return false;
+            with.*info_of(number.parameter).member = number.value;
+        }
+        if (!are_within(with, of_type)) return false;
+    }
+    return true;
 }
 
 bool put_numbers(std::span<const OwnJointNumber> own, RobotType& type) {

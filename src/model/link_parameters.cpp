@@ -85,6 +85,11 @@ void put_surface(LinkParameter parameter, double value, Material& material) {
     if (parameter == kFriction && !has_direction) material.mu2 = value;
 }
 
+void put_surfaces(std::span<const LinkParameterValue> values, Material& material) {
+    for (const auto& [parameter, value] : values)
+        if (is_of_surface(parameter)) put_surface(parameter, value, material);
+}
+
 std::optional<double> given(std::span<const LinkParameterValue> values, LinkParameter parameter) {
     const auto found = std::ranges::find(values, parameter, &LinkParameterValue::parameter);
     if (found == values.end()) return std::nullopt;
@@ -170,14 +175,6 @@ class LinkCheck {
     std::string called_;
 };
 
-/// The own numbers of one link.
-std::vector<LinkParameterValue> numbers_of(std::span<const OwnLinkNumber> own, LinkId link) {
-    std::vector<LinkParameterValue> values;
-    for (const OwnLinkNumber& one : own)
-        if (one.link == link) values.push_back(one.number);
-    return values;
-}
-
 constexpr auto kPlaceOfLinkNumber = [](const OwnLinkNumber& one) {
     return std::tuple(one.link, one.number.parameter);
 };
@@ -193,22 +190,30 @@ bool has_number(const RobotType& type, LinkId link, const LinkParameterValue& nu
     });
 }
 
-/// Forgets numbers of a link that are those of the type. An inertia is one number here.
-void forget_equal(const RobotType& type, LinkId link, std::vector<OwnLinkNumber>& own) {
-    const auto is_equal = [&](const OwnLinkNumber& one) {
-        return one.link == link && has_number(type, link, one.number);
+/// Forgets those of the numbers of one link that are the type's. An inertia is one number here.
+void forget_equal(const RobotType& type, LinkId link, std::vector<LinkParameterValue>& numbers) {
+    const auto is_equal = [&](const LinkParameterValue& one) { return has_number(type, link, one); };
+    const auto gives_other_inertia = [&](const LinkParameterValue& one) {
+        return (is_inertia(one.parameter) || one.parameter == kMass) && !is_equal(one);
     };
-    const auto keeps_inertia = [&](const OwnLinkNumber& one) {
-        return one.link == link && is_inertia(one.number.parameter) && !is_equal(one);
-    };
-    const bool heavier = std::ranges::any_of(own, [&](const OwnLinkNumber& one) {
-        return one.link == link && one.number.parameter == kMass && !is_equal(one);
+    const bool inertia_differs = std::ranges::any_of(numbers, gives_other_inertia);
+    std::erase_if(numbers, [&](const LinkParameterValue& one) {
+        return is_inertia(one.parameter) ? !inertia_differs : is_equal(one);
     });
-    const bool inertia_differs = heavier || std::ranges::any_of(own, keeps_inertia);
-    std::erase_if(own, [&](const OwnLinkNumber& one) {
-        if (one.link == link && is_inertia(one.number.parameter)) return !inertia_differs;
-        return is_equal(one);
-    });
+}
+
+/// Calls visit(link, numbers) for each link that has some, in their order, until it says false. False: it
+/// did.
+template <class Visit>
+bool for_each_link(std::span<const OwnLinkNumber> own, const Visit& visit) {
+    std::vector<LinkParameterValue> numbers;
+    for (std::size_t i = 0; i < own.size();) {
+        const LinkId link = own[i].link;
+        numbers.clear();
+        for (; i < own.size() && own[i].link == link; ++i) numbers.push_back(own[i].number);
+        if (!visit(link, numbers)) return false;
+    }
+    return true;
 }
 
 /// Gives a link its own mass, centre of mass and inertia. False: it has none of its own.
@@ -231,13 +236,18 @@ bool weigh(std::span<const LinkParameterValue> values, Link& link) {
     return true;
 }
 
-/// Sums a body up again from its links.
-void sum_up(const RobotType& type, int number, Body& body) {
-    body.mass = body.gravity_mass = 0;
-    body.p_BC = body.p_BG = {};
-    body.inertia_C = {};
+/// Sums bodies up again from their links. `changed`: by body.
+void sum_up(const std::vector<char>& changed, RobotType& type) {
+    for (std::size_t b = 0; b < changed.size(); ++b) {
+        if (changed[b] == 0) continue;
+        Body& body = type.bodies[b];
+        body.mass = body.gravity_mass = 0;
+        body.p_BC = body.p_BG = {};
+        body.inertia_C = {};
+    }
     for (const Link& link : type.links)
-        if (link.body == number) add_mass(body, link);
+        if (link.body >= 0 && changed[static_cast<std::size_t>(link.body)] != 0)
+            add_mass(type.bodies[static_cast<std::size_t>(link.body)], link);
 }
 
 }  // namespace
@@ -267,11 +277,14 @@ Result<> check_link_parameters(const std::string& robot, const RobotType& type,
 
 void apply_link_parameters(const RobotType& type, const SetLinkParameters& order, RobotState& state) {
     OwnNumbers own = state.own;
-    if (order.reset)
-        std::erase_if(own.links, [&](const OwnLinkNumber& one) { return one.link == order.link; });
-    for (const LinkParameterValue& one : order.values)
-        put_number(OwnLinkNumber{order.link, one}, kPlaceOfLinkNumber, own.links);
-    forget_equal(type, order.link, own.links);
+    const auto its = std::ranges::equal_range(own.links, order.link, {}, &OwnLinkNumber::link);
+    std::vector<LinkParameterValue> numbers;
+    if (!order.reset)
+        for (const OwnLinkNumber& one : its) numbers.push_back(one.number);
+    for (const LinkParameterValue& one : order.values) put_number(one, numbers);
+    forget_equal(type, order.link, numbers);
+    auto at = own.links.erase(its.begin(), its.end());
+    for (const LinkParameterValue& one : numbers) at = own.links.insert(at, {order.link, one}) + 1;
     set_own(type, std::move(own), state);
 }
 
@@ -292,34 +305,27 @@ std::optional<double> link_number(const RobotType& type, LinkId link, LinkParame
 }
 
 bool may_own(const RobotType& type, std::span<const OwnLinkNumber> own) {
-    std::vector<OwnLinkNumber> kept(own.begin(), own.end());
-    for (std::size_t i = 0; i < own.size();) {
-        SetLinkParameters order;
-        order.link = own[i].link;
-        for (; i < own.size() && own[i].link == order.link; ++i) {
-            if (i > 0 && kPlaceOfLinkNumber(own[i - 1]) >= kPlaceOfLinkNumber(own[i])) return false;
-            order.values.push_back(own[i].number);
-        }
-        if (!check_link_parameters("", type, order)) return false;
-        forget_equal(type, order.link, kept);
-    }
-    return kept.size() == own.size();
+    for (std::size_t i = 1; i < own.size(); ++i)
+        if (kPlaceOfLinkNumber(own[i - 1]) >= kPlaceOfLinkNumber(own[i])) return false;
+    return for_each_link(own, [&](LinkId link, std::vector<LinkParameterValue>& numbers) {
+        if (!check_link_parameters("", type, {link, false, numbers})) return false;
+        const std::size_t count = numbers.size();
+        forget_equal(type, link, numbers);
+        return numbers.size() == count;
+    });
 }
 
 bool put_numbers(std::span<const OwnLinkNumber> own, RobotType& type) {
-    bool weighed = false;
-    for (std::size_t i = 0; i < own.size(); ++i) {
-        const LinkId id = own[i].link;
-        if (const auto& [parameter, value] = own[i].number; is_of_surface(parameter))
-            for (BodyShape& shape : type.shapes)
-                if (shape.link == id) put_surface(parameter, value, shape.material);
-        if (i > 0 && own[i - 1].link == id) continue;
+    std::vector<char> weighed(type.bodies.size(), 0);
+    for_each_link(own, [&](LinkId id, const std::vector<LinkParameterValue>& numbers) {
+        for (BodyShape& shape : type.shapes)
+            if (shape.link == id) put_surfaces(numbers, shape.material);
         Link& link = type.links[id.index()];
-        if (!weigh(numbers_of(own, id), link) || link.body < 0) continue;
-        weighed = true;
-        sum_up(type, link.body, type.bodies[static_cast<std::size_t>(link.body)]);
-    }
-    return weighed;
+        if (weigh(numbers, link) && link.body >= 0) weighed[static_cast<std::size_t>(link.body)] = 1;
+        return true;
+    });
+    sum_up(weighed, type);
+    return std::ranges::find(weighed, 1) != weighed.end();
 }
 
 }  // namespace roboss

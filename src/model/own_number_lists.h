@@ -1,5 +1,5 @@
-// Tables, faults and sorted lists of the numbers of joints and of those of links.
-// Internal to the model layer.
+// Tables, faults and sorted lists of the numbers of joints and of those of links. Internal to the model
+// layer.
 #pragma once
 
 #include <algorithm>
@@ -43,8 +43,7 @@ std::string names_of_rows(std::span<const Row> rows) {
     return names;
 }
 
-/// Refuses the list of an order for `called`, whatever the numbers are. `names`: of all
-/// parameters.
+/// Refuses the list of an order for `called`, whatever the numbers are. `names`: of all parameters.
 template <class Order>
 Result<> check_list(const Order& order, const std::string& called, std::size_t parameters,
                     const std::string& names) {
@@ -63,14 +62,15 @@ Result<> check_list(const Order& order, const std::string& called, std::size_t p
     return Ok{};
 }
 
-/// Puts a number into a list that is sorted by place(number), in place of the one that is there.
-template <class Own, class Place>
-void put_number(const Own& one, Place place, std::vector<Own>& own) {
-    const auto at = std::ranges::lower_bound(own, place(one), {}, place);
-    if (at != own.end() && place(*at) == place(one))
-        at->number.value = one.number.value;
+/// Puts a number among those of one axis or link, which are sorted by their parameters, in place of the one
+/// that is there.
+template <class Value>
+void put_number(const Value& one, std::vector<Value>& numbers) {
+    const auto at = std::ranges::lower_bound(numbers, one.parameter, {}, &Value::parameter);
+    if (at != numbers.end() && at->parameter == one.parameter)
+        at->value = one.value;
     else
-        own.insert(at, one);
+        numbers.insert(at, one);
 }
 
 }  // namespace roboss

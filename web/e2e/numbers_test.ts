@@ -48,7 +48,7 @@ bench.test("a number is set, marked, and the file's stands beside it", async (pa
     await until("the title", async () => /Numbers \(1 own\)/.test((await section(page).textContent()) ?? ""));
 });
 
-bench.test("what is no number is refused at once, what the run refuses is told in its words", async (page) => {
+bench.test("a field refuses what is no number at once, and shows why the run refuses a number", async (page) => {
     await damping(page).fill("much");
     assert.equal(await damping(page).getAttribute("aria-invalid"), "true");
     assert.equal(await fault(page), "Not a number: damping.");

@@ -77,7 +77,7 @@ class Branches(Task):
             ("no-copy").
 
     Attributes:
-        parts: the copies, with randomizers of their own, which go on with the original's draws. `randomizer` is None.
+        parts: the copies, with randomizers of their own, which continue the original's draws. `randomizer` is None.
     """
 
     def __init__(self, task: Task, rng: np.random.Generator, count: int):

@@ -107,7 +107,7 @@ class Task(ABC):
         """All worlds at their start, with other sensor noise, and all agents at new places.
 
         Args:
-            seed: of the randomizer, which starts anew; None: it goes on.
+            seed: of the randomizer, which starts again with it; None: the randomizer continues.
         """
         of_noise = int(rng.integers(2**31))
         for number, simulation in enumerate(self.simulations):
@@ -183,7 +183,8 @@ class Task(ABC):
 
     @abstractmethod
     def observe(self) -> NDArray[np.float32]:
-        """The observation of each agent now, (count, ...). It may be called more than once at a tick, and changes nothing."""
+        """The observation of each agent now, (count, ...). It may be called more than once at a tick, and changes
+        nothing."""
 
     @abstractmethod
     def place(self, agents: Mask, rng: np.random.Generator) -> None:

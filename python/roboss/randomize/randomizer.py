@@ -163,7 +163,7 @@ class Randomizer:
         """
         chosen = self._agents.mask(agents)
         self._check_begun(chosen)
-        self._do(self._go_on, chosen, False)
+        self._do(self._draw_due, chosen, False)
 
     def noisy(self, observations: NDArray[Any]) -> NDArray[Any]:
         """The observations, (N, columns), (B, N, columns) or (agents, columns), with the noise of this step added.
@@ -276,7 +276,7 @@ class Randomizer:
         self._fill(number, chosen)
         return chosen
 
-    def _go_on(self, number: int, chosen: Mask, ticks: Rows) -> Mask:
+    def _draw_due(self, number: int, chosen: Mask, ticks: Rows) -> Mask:
         """Draws a term that is due. Returns for which agents."""
         term = self.terms[number]
         due: Mask

@@ -4,12 +4,13 @@ from __future__ import annotations
 from abc import ABC, abstractmethod
 from dataclasses import dataclass
 from fnmatch import fnmatchcase
-from typing import Any, Iterable, Literal, Optional, Sequence, Union
+from typing import Iterable, Literal, Optional, Sequence, Union
 
 import numpy as np
 
 from ..errors import ArgumentError
 from ..names import flag, listed, names_of, real, text, unknown, whole
+from ..parameters import JointParameters, LinkParameters
 from ..robots import Robots
 from .distributions import Distribution, Floats
 
@@ -245,9 +246,9 @@ def parts_of(robots: Robots, kind: str) -> tuple[str, ...]:
     return robots.joints if kind == "joint" else robots.links
 
 
-def numbers_of(robots: Robots, kind: str) -> Any:
+def numbers_of(robots: Robots, kind: str) -> Union[JointParameters, LinkParameters]:
     """The numbers of the joints, or of the links."""
-    return getattr(robots, "parameters" if kind == "joint" else "link_parameters")
+    return robots.parameters if kind == "joint" else robots.link_parameters
 
 
 def _number(kind: Literal["joint", "link"], parameter: str, distribution: Distribution, operation: str,

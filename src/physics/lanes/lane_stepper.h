@@ -76,7 +76,7 @@ struct LaneSteppers {
     explicit operator bool() const { return lanes != nullptr; }
     std::size_t width() const { return lanes->width(); }
     bool in_floats() const { return single != nullptr; }
-    /// Whether such a robot is to be stepped in them; in doubles those with own numbers are not.
+    /// True if such a robot is stepped in them. In doubles those with own numbers are not.
     bool take(const Model& model, const RobotType& type, const RobotState& state) const;
 };
 
