@@ -189,15 +189,15 @@ void apply_joint_parameters(const RobotType& type, const SetJointParameters& ord
     const Joint& joint = type.joints[order.joint.index()];
     const Dof before = dof_of(type, state, joint, order.axis);
     OwnNumbers own = state.own;
-    const auto its = std::ranges::equal_range(own.joints, std::pair(order.joint, order.axis), {}, kAxisOf);
+    const auto [first, last] = numbers_with(std::pair(order.joint, order.axis), kAxisOf, own.joints);
     std::vector<JointParameterValue> numbers;
     if (!order.reset)
-        for (const OwnJointNumber& one : its) numbers.push_back(one.number);
+        for (auto one = first; one != last; ++one) numbers.push_back(one->number);
     for (const JointParameterValue& one : order.values) put_number(one, numbers);
     std::erase_if(numbers, [&](const JointParameterValue& one) {
         return has_number(type.dof(joint, order.axis), one);
     });
-    auto at = own.joints.erase(its.begin(), its.end());
+    auto at = own.joints.erase(first, last);
     for (const JointParameterValue& one : numbers)
         at = own.joints.insert(at, {order.joint, order.axis, one}) + 1;
     set_own(type, std::move(own), state);

@@ -19,7 +19,7 @@ struct Dof;
 struct RobotState;
 struct RobotType;
 
-/// Which number of an axis. Their order is part of the encoding of orders.
+/// Which number of an axis. Their order is part of the encoding of orders and of states.
 enum class JointParameter : std::uint8_t {
     kLower,
     kUpper,

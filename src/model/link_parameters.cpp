@@ -277,13 +277,13 @@ Result<> check_link_parameters(const std::string& robot, const RobotType& type,
 
 void apply_link_parameters(const RobotType& type, const SetLinkParameters& order, RobotState& state) {
     OwnNumbers own = state.own;
-    const auto its = std::ranges::equal_range(own.links, order.link, {}, &OwnLinkNumber::link);
+    const auto [first, last] = numbers_with(order.link, &OwnLinkNumber::link, own.links);
     std::vector<LinkParameterValue> numbers;
     if (!order.reset)
-        for (const OwnLinkNumber& one : its) numbers.push_back(one.number);
+        for (auto one = first; one != last; ++one) numbers.push_back(one->number);
     for (const LinkParameterValue& one : order.values) put_number(one, numbers);
     forget_equal(type, order.link, numbers);
-    auto at = own.links.erase(its.begin(), its.end());
+    auto at = own.links.erase(first, last);
     for (const LinkParameterValue& one : numbers) at = own.links.insert(at, {order.link, one}) + 1;
     set_own(type, std::move(own), state);
 }

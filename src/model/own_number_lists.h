@@ -8,6 +8,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "core/result.h"
@@ -71,6 +72,14 @@ void put_number(const Value& one, std::vector<Value>& numbers) {
         at->value = one.value;
     else
         numbers.insert(at, one);
+}
+
+/// Begin and end of the numbers of one axis or link in a list that is sorted by `key_of`. (The subrange of
+/// std::ranges::equal_range does not compile with clang 14.)
+template <class Number, class Key, class KeyOf>
+auto numbers_with(const Key& key, KeyOf key_of, std::vector<Number>& sorted) {
+    return std::pair(std::ranges::lower_bound(sorted, key, {}, key_of),
+                     std::ranges::upper_bound(sorted, key, {}, key_of));
 }
 
 }  // namespace roboss
