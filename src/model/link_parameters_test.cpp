@@ -15,7 +15,7 @@ namespace roboss::test {
 namespace {
 
 using enum LinkParameter;
-const RobotId kCar(0u), kBar(1u), kBare(2u);
+const RobotId kCar(0u), kBare(2u);
 const LinkId kWheel(1u);
 
 class LinkParameters : public testing::Test {

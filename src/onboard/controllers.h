@@ -8,6 +8,7 @@ namespace roboss {
 
 void run(const AckermannSteeringSpec& spec, OnboardContext& c);
 void run(const ApplyLinkWrenchSpec& spec, OnboardContext& c);
+void run(const CommandTimeoutSpec& spec, OnboardContext& c);
 void run(const DiffDriveSpec& spec, OnboardContext& c);
 void run(const DriveToPoseSpec& spec, OnboardContext& c);
 void run(const MecanumDriveSpec& spec, OnboardContext& c);

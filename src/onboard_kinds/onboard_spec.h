@@ -19,6 +19,7 @@
 #include "onboard_kinds/audio_source.h"
 #include "onboard_kinds/breadcrumbs.h"
 #include "onboard_kinds/buoyancy_engine.h"
+#include "onboard_kinds/command_timeout.h"
 #include "onboard_kinds/detachable_joint.h"
 #include "onboard_kinds/diff_drive.h"
 #include "onboard_kinds/drive_to_pose.h"
@@ -55,15 +56,17 @@
 namespace roboss {
 
 /// Parameters of any kind. The order does not count; the number of each kind does.
-using OnboardParameters = std::variant<
-    VelocityControlSpec, DiffDriveSpec, AckermannSteeringSpec, MecanumDriveSpec, TrackedVehicleSpec,
-    RosDiffDriveSpec, RosSkidSteerSpec, RosAckermannSpec, DriveToPoseSpec, TrajectoryFollowerSpec,
-    ApplyLinkWrenchSpec, PlanarMoveSpec, JointControllerSpec, JointPositionControllerSpec,
-    JointTrajectoryControllerSpec, ApplyJointForceSpec, JointPoseTrajectorySpec, LinearBatterySpec,
-    KineticEnergyMonitorSpec, DetachableJointSpec, GripperSpec, MotorModelSpec, MulticopterControlSpec,
-    LiftDragSpec, AdvancedLiftDragSpec, ThrusterSpec, BuoyancyEngineSpec, HydrodynamicsSpec, WindEffectsSpec,
-    TrackControllerSpec, SurfaceVelocitySpec, ActorSpec, MessageBoardSpec, WheelSlipSpec, LookupWheelSlipSpec,
-    LighterThanAirSpec, AudioSourceSpec, BreadcrumbsSpec, CrumbSpec, ElevatorSpec, FollowActorSpec>;
+using OnboardParameters =
+    std::variant<VelocityControlSpec, DiffDriveSpec, AckermannSteeringSpec, MecanumDriveSpec,
+                 TrackedVehicleSpec, RosDiffDriveSpec, RosSkidSteerSpec, RosAckermannSpec, DriveToPoseSpec,
+                 TrajectoryFollowerSpec, ApplyLinkWrenchSpec, PlanarMoveSpec, JointControllerSpec,
+                 JointPositionControllerSpec, JointTrajectoryControllerSpec, ApplyJointForceSpec,
+                 JointPoseTrajectorySpec, LinearBatterySpec, KineticEnergyMonitorSpec, DetachableJointSpec,
+                 GripperSpec, MotorModelSpec, MulticopterControlSpec, LiftDragSpec, AdvancedLiftDragSpec,
+                 ThrusterSpec, BuoyancyEngineSpec, HydrodynamicsSpec, WindEffectsSpec, TrackControllerSpec,
+                 SurfaceVelocitySpec, ActorSpec, MessageBoardSpec, WheelSlipSpec, LookupWheelSlipSpec,
+                 LighterThanAirSpec, AudioSourceSpec, BreadcrumbsSpec, CrumbSpec, ElevatorSpec,
+                 FollowActorSpec, CommandTimeoutSpec>;
 
 /// An on-board controller of a model.
 struct OnboardSpec {
@@ -75,7 +78,7 @@ struct OnboardSpec {
     OnboardSpec();
     /// A controller of the kind of its parameters.
     OnboardSpec(std::string name, OnboardParameters parameters, SourceLocation where);
-    // Copies are compiled in onboard_spec.cpp only: 41 kinds take seconds in each file that copies a World.
+    // Copies are compiled in onboard_spec.cpp only: 42 kinds take seconds in each file that copies a World.
     OnboardSpec(const OnboardSpec& other);
     OnboardSpec(OnboardSpec&& other) noexcept;
     OnboardSpec& operator=(const OnboardSpec& other);

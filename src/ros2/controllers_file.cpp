@@ -5,6 +5,8 @@
 #include <cmath>
 #include <optional>
 
+#include "ros2/controller_parameters.h"
+#include "ros2/drive_parameters.h"
 #include "ros2/robot_names.h"
 #include "ros2/yaml_file.h"
 
@@ -125,21 +127,45 @@ class ControllersReader {
             entry.kind = known.kind;
             return set_parameters(type, known.mode, entry);
         }
-        if (controllers_.notices.size() == kControllersMost) return Ok{};
-        controllers_.notices.push_back(where(type) + "the controller '" + entry.name + "' has no effect: a " +
-                                       name.substr(0, 100) +
-                                       " is not known here; plugins in the world file can drive wheels "
-                                       "[controller-type]");
+        if (const DriveReader read_drive = drive_reader(name)) return set_drive(type, read_drive, entry);
+        notice(where(type) + "the controller '" + entry.name + "' has no effect: a " + name.substr(0, 100) +
+               " is not known here; plugins in the world file can drive wheels [controller-type]");
+        return Ok{};
+    }
+
+    void notice(std::string line) {
+        if (controllers_.notices.size() < kControllersMost) controllers_.notices.push_back(std::move(line));
+    }
+
+    /// The parameters of the controller's own node; null: it has none.
+    const Parameters* find_parameters(const ControllerEntry& entry) const {
+        const Parameters* own = nullptr;
+        for (const Parameters& node : nodes_)
+            if (node.name == entry.name && (node.space == entry.space || node.space.empty())) own = &node;
+        return own == nullptr || !own->values.IsMap() ? nullptr : own;
+    }
+    Error no_parameters(const YAML::Node& type, const ControllerEntry& entry, const char* parameters) const {
+        return bad(where(type), "the controller '" + entry.name + "' has no parameters",
+                   "add '" + entry.name + ": {ros__parameters: {" + parameters + "}}'");
+    }
+
+    Result<> set_drive(const YAML::Node& type, DriveReader read_drive, ControllerEntry& entry) {
+        const Parameters* own = find_parameters(entry);
+        if (own == nullptr) return no_parameters(type, entry, "wheel_radius: ..., ...");
+        ControllerParameters parameters(controllers_.file, entry.name, own->values);
+        const auto drive = std::make_shared<const DriveController>(read_drive(parameters));
+        if (!parameters.refusal().empty()) return notice(parameters.refusal()), Ok{};
+        if (parameters.error()) return *parameters.error();
+        for (std::string& line : parameters.take_notices()) notice(std::move(line));
+        entry.kind = EntryKind::kDrive, entry.mode = MotorMode::kVelocity;
+        entry.joints = joints_named(drive->parameters), entry.drive = drive;
+        controllers_.entries.push_back(std::move(entry));
         return Ok{};
     }
 
     Result<> set_parameters(const YAML::Node& type, std::optional<MotorMode> mode, ControllerEntry& entry) {
-        const Parameters* own = nullptr;
-        for (const Parameters& node : nodes_)
-            if (node.name == entry.name && (node.space == entry.space || node.space.empty())) own = &node;
-        if (own == nullptr || !own->values.IsMap())
-            return bad(where(type), "the controller '" + entry.name + "' has no parameters",
-                       "add '" + entry.name + ": {ros__parameters: {joints: [...]}}'");
+        const Parameters* own = find_parameters(entry);
+        if (own == nullptr) return no_parameters(type, entry, "joints: [...]");
         if (const Result<> read = set_joints(own->values, entry); !read) return read.error();
         if (!mode) {
             const Result<MotorMode> said = interface_of(own->values, entry);

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -14,14 +15,17 @@
 
 namespace roboss::ros2 {
 
+struct DriveController;
+
 /// A controller.
 struct ControllerEntry {
     /// What it takes.
     enum class Kind {
-        kTrajectory,      ///< FollowJointTrajectory, and JointTrajectory as a topic
-        kSetpoints,       ///< Float64MultiArray: a number for each joint
-        kGripper,         ///< GripperCommand, of one joint
-        kParallelGripper  ///< ParallelGripperCommand, of one joint
+        kTrajectory,       ///< FollowJointTrajectory, and JointTrajectory as a topic
+        kSetpoints,        ///< Float64MultiArray: a number for each joint
+        kGripper,          ///< GripperCommand, of one joint
+        kParallelGripper,  ///< ParallelGripperCommand, of one joint
+        kDrive             ///< a velocity of the robot: it becomes an on-board controller (world_drives.h)
     };
     std::string name,                       ///< "panda_arm_controller"
         space;                              ///< of the node, without "/" in front; empty: that of any robot
@@ -32,14 +36,15 @@ struct ControllerEntry {
         stall_velocity = 0.001,             ///< below which a gripper stands, m/s or rad/s
         stall_timeout_s = 1;                ///< for so long it has to stand until it is stalled
     bool allow_stalling = false;            ///< a stalled gripper has reached its goal
-    int line = 0;                           ///< in the file, from 1
+    std::shared_ptr<const DriveController> drive{};  ///< of a drive; null: it is none
+    int line = 0;                                    ///< in the file, from 1
 };
 
 /// A file.
 struct Controllers {
     std::string file;                      ///< its path, for messages
     std::vector<ControllerEntry> entries;  ///< in the order of the file
-    std::vector<std::string> notices;      ///< controllers that have no effect here, one line each
+    std::vector<std::string> notices;      ///< controllers and parameters that have no effect, one line each
 };
 
 /// Reads the text of a file. An Error names file and line.

@@ -33,7 +33,7 @@ hand_controller:
     allow_stalling: true
 )";
 
-Controllers read(const std::string& text) {
+Controllers parsed(const std::string& text) {
     Result<Controllers> read = parse_controllers("c.yaml", text);
     EXPECT_TRUE(read) << read.error().text();
     return read ? read.value() : Controllers{};
@@ -44,7 +44,7 @@ std::string error(const std::string& text) {
 }
 
 TEST(ControllersFile, NamesTypesAndJointsAreRead) {
-    const Controllers file = read(kArmAndHand);
+    const Controllers file = parsed(kArmAndHand);
     ASSERT_EQ(file.entries.size(), 2u);
     EXPECT_EQ(file.entries[0].name, "arm_controller");
     EXPECT_EQ(file.entries[0].kind, Kind::kTrajectory);
@@ -61,8 +61,8 @@ TEST(ControllersFile, NamesTypesAndJointsAreRead) {
 
 TEST(ControllersFile, SetpointsHaveTheModeOfTheirTypeOrInterface) {
     const auto mode = [](const std::string& type, const std::string& more) {
-        const Controllers file = read("controller_manager: {ros__parameters: {c: {type: " + type +
-                                      "}}}\nc: {ros__parameters: {joints: [a]" + more + "}}");
+        const Controllers file = parsed("controller_manager: {ros__parameters: {c: {type: " + type +
+                                        "}}}\nc: {ros__parameters: {joints: [a]" + more + "}}");
         EXPECT_EQ(file.entries.at(0).kind, Kind::kSetpoints);
         return file.entries.at(0).mode;
     };
@@ -75,7 +75,7 @@ TEST(ControllersFile, SetpointsHaveTheModeOfTheirTypeOrInterface) {
 }
 
 TEST(ControllersFile, NamespacesAreOfRobotsAndWildcardsAreOfAll) {
-    const Controllers file = read(R"(
+    const Controllers file = parsed(R"(
 left:
   controller_manager: {ros__parameters: {c: {type: joint_trajectory_controller/JointTrajectoryController}}}
   c: {ros__parameters: {joints: [a]}}

@@ -77,7 +77,8 @@ std::size_t FaceServices::add_actions(RobotId robot) {
         const ControllerEntry& entry = *controller.entry;
         if (entry.kind == ControllerEntry::Kind::kTrajectory)
             follow(entry.name, TrajectoryJoints::of(type, controller.joints));
-        else if (entry.kind != ControllerEntry::Kind::kSetpoints)
+        else if (entry.kind == ControllerEntry::Kind::kGripper ||
+                 entry.kind == ControllerEntry::Kind::kParallelGripper)
             actions_.push_back(
                 gripper_action(transport_, node, below(robot_name, entry.name), run_, robot, controller));
     }

@@ -51,15 +51,15 @@ JointStateMessage message_of(const Finger& finger, const Seen& seen) {
     state.position = {seen.position}, state.velocity = {seen.velocity}, state.effort = {seen.effort};
     return state;
 }
-GripperCommand::Result result_of(const GripperCommand&, const Finger&, const Seen& seen) {
+GripperCommand::Result gripper_result(const GripperCommand&, const Finger&, const Seen& seen) {
     return {seen.position, seen.effort, seen.stalled, seen.reached};
 }
-ParallelGripperCommand::Result result_of(const ParallelGripperCommand&, const Finger& finger,
-                                         const Seen& seen) {
+ParallelGripperCommand::Result gripper_result(const ParallelGripperCommand&, const Finger& finger,
+                                              const Seen& seen) {
     return {message_of(finger, seen), seen.stalled, seen.reached};
 }
 GripperCommand::Feedback feedback_of(const GripperCommand& action, const Finger& finger, const Seen& seen) {
-    return {result_of(action, finger, seen)};
+    return {gripper_result(action, finger, seen)};
 }
 ParallelGripperCommand::Feedback feedback_of(const ParallelGripperCommand&, const Finger& finger,
                                              const Seen& seen) {
@@ -84,14 +84,14 @@ class GripperExecution {
         if (!seen_.reached && !seen_.stalled) return {};
         const bool fine = seen_.reached || finger_.entry.allow_stalling;
         return GoalEnd<A>{fine ? GoalStatus::kSucceeded : GoalStatus::kAborted,
-                          result_of(A{}, finger_, seen_)};
+                          gripper_result(A{}, finger_, seen_)};
     }
     void follow(RunControl&, Tick) const {}
     /// A finger that has stalled keeps pressing; others stay where they are.
     void hold(RunControl& run) const {
         if (!seen_.stalled) (void)send(run, seen_.position, -1);  // the run reports a refusal
     }
-    typename A::Result dropped(std::int8_t, const char*) const { return result_of(A{}, finger_, seen_); }
+    typename A::Result dropped(std::int8_t, const char*) const { return gripper_result(A{}, finger_, seen_); }
 
     /// Sees where the finger is.
     void look(const RunControl& run) {

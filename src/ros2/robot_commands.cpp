@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "ros2/bridged_commands.h"
+#include "ros2/drive_controller.h"
 #include "ros2/fleet_topics.h"
 #include "ros2/robot_controllers.h"
 #include "ros2/robot_names.h"
@@ -130,6 +131,14 @@ std::optional<std::uint32_t> velocity_channel(const RobotType& type) {
     return {};
 }
 
+/// The drive of the file whose velocity this is; null: it is that of none.
+const DriveController* drive_with(const std::vector<RobotController>& controllers, const Channel& channel) {
+    for (const RobotController& controller : controllers)
+        if (controller.entry->drive && controller.entry->drive->command == channel.name)
+            return controller.entry->drive.get();
+    return nullptr;
+}
+
 /// The topic of a command in the namespace of its robot, `space`: "/scout_1/cmd_vel", also where the file
 /// says so itself. A namespace that the file gives to a plugin of gazebo_ros_pkgs takes its place.
 std::string command_topic(const Channel& channel, const std::string& space, std::set<std::string>& taken) {
@@ -174,10 +183,14 @@ void RobotCommands::add_robot(RobotId robot, const std::string& name, bool stamp
                               std::set<std::string>& taken) {
     const RobotType& type = model_->type_of(robot);
     const std::string space = below(name, "");
+    std::vector<RobotController> own;
+    if (controllers_) own = controllers_of(*controllers_, type, name);
     for (std::size_t c = 0; c < type.channels.size(); ++c) {
         const Channel& channel = type.channels[c].channel;
-        const auto [kind, message] = message_of(channel, stamped);
-        topics_.push_back({command_topic(channel, space, taken),
+        const DriveController* drive = drive_with(own, channel);
+        const auto [kind, message] = message_of(channel, stamped || (drive != nullptr && drive->stamped));
+        topics_.push_back({drive != nullptr ? unique_name(below(name, drive->command), taken)
+                                            : command_topic(channel, space, taken),
                            message,
                            kind,
                            robot,
@@ -185,22 +198,20 @@ void RobotCommands::add_robot(RobotId robot, const std::string& name, bool stamp
                            {},
                            {}});
     }
-    if (type.channels.empty()) add_setpoints(robot, name);
+    add_setpoints(robot, name, own);
 }
 
-void RobotCommands::add_setpoints(RobotId robot, const std::string& name) {
+void RobotCommands::add_setpoints(RobotId robot, const std::string& name,
+                                  const std::vector<RobotController>& own) {
     const RobotType& type = model_->type_of(robot);
     const auto add = [&](const std::string& controller, MotorMode mode, const std::vector<JointId>& joints) {
         topics_.push_back({below(name, controller + "/commands"), &type_of<Float64MultiArray>(),
                            Kind::kSetpoints, robot, 0, mode, joints});
     };
-    if (controllers_) {
-        const std::vector<RobotController> own = controllers_of(*controllers_, type, name);
-        for (const RobotController& controller : own)
-            if (controller.entry->kind == ControllerEntry::Kind::kSetpoints)
-                add(controller.entry->name, controller.entry->mode, controller.joints);
-        if (!own.empty()) return;
-    }
+    for (const RobotController& controller : own)
+        if (controller.entry->kind == ControllerEntry::Kind::kSetpoints)
+            add(controller.entry->name, controller.entry->mode, controller.joints);
+    if (!own.empty() || !type.channels.empty()) return;
     std::vector<JointId> driven;
     for (std::size_t j = 0; j < type.joints.size(); ++j)
         if (is_driven(type, JointId(j))) driven.push_back(JointId(j));

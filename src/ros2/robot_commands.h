@@ -2,10 +2,10 @@
 //
 // A robot takes each command of its on-board controllers (RobotType::channels) in its namespace:
 // "/car_3/cmd_vel". The message follows from the values of the command: Twist (or TwistStamped) for a
-// velocity, Float64, Bool, String, Float64MultiArray, PoseStamped, JointTrajectory, Empty. A robot without
-// on-board controllers takes the setpoints of its joints as those of ros2_control do, by the controllers of a
-// file, or all joints by "/arm/position_controller/commands". "/fleet/cmd_vel" drives all robots that take a
-// velocity.
+// velocity, Float64, Bool, String, Float64MultiArray, PoseStamped, JointTrajectory, Empty. Joints that no
+// on-board controller moves take setpoints as those of ros2_control do, by the controllers of a file, or, of
+// a robot without commands, all joints by "/arm/position_controller/commands". "/fleet/cmd_vel" drives all
+// robots that take a velocity.
 #pragma once
 
 #include <cstdint>
@@ -18,6 +18,7 @@
 
 #include "core/result.h"
 #include "model/order.h"
+#include "ros2/robot_controllers.h"
 #include "ros2/topic_options.h"
 #include "ros2_types/message_type.h"
 
@@ -72,7 +73,7 @@ class RobotCommands {
 
   private:
     void add_robot(RobotId robot, const std::string& name, bool stamped, std::set<std::string>& taken);
-    void add_setpoints(RobotId robot, const std::string& name);
+    void add_setpoints(RobotId robot, const std::string& name, const std::vector<RobotController>& own);
     Result<std::vector<double>> values(const CommandTopic& topic, std::string_view cdr) const;
     Result<std::vector<RobotOrder>> setpoints(const CommandTopic& topic, std::string_view cdr) const;
     void add_fleet();

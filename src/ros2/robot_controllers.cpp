@@ -6,12 +6,32 @@
 
 #include "core/similar.h"
 #include "model/powerless_joints.h"
+#include "ros2/drive_controller.h"
 #include "ros2/file_line.h"
+#include "ros2/robot_names.h"
 #include "ros2/trajectory_goal.h"
 
 namespace roboss::ros2 {
 
 namespace {
+
+/// True if an on-board controller of the type is the drive of an entry.
+bool has_drive(const ControllerEntry& entry, const RobotType& type) {
+    return std::ranges::any_of(type.onboard, [&](const OnboardInfo& info) {
+        if (info.channels.empty() || joints_named(info.spec.parameters) != entry.joints) return false;
+        const auto first = static_cast<std::size_t>(info.channels.front());
+        return type.channels[first].channel.name == entry.drive->command;
+    });
+}
+
+/// True if an on-board controller moves one of the joints.
+bool move_on_board(const RobotType& type, const std::vector<JointId>& joints) {
+    return std::ranges::any_of(type.onboard, [&](const OnboardInfo& info) {
+        return std::ranges::any_of(info.axes, [&](const AxisRef& axis) {
+            return std::ranges::find(joints, axis.joint) != joints.end();
+        });
+    });
+}
 
 /// The joints of an entry; none: the robot has not all of them, or something else moves them.
 std::optional<std::vector<JointId>> joints_of(const ControllerEntry& entry, const RobotType& type) {
@@ -21,10 +41,11 @@ std::optional<std::vector<JointId>> joints_of(const ControllerEntry& entry, cons
         if (!joint || !(is_driven(type, *joint) || follows(type, *joint))) return {};
         joints.push_back(*joint);
     }
-    if (type.onboard.empty()) return joints;
+    if (entry.drive) return has_drive(entry, type) ? std::optional(joints) : std::nullopt;
     const TrajectoryJoints able = TrajectoryJoints::of(type);
-    const bool is_its_own = entry.kind == ControllerEntry::Kind::kTrajectory && able.channel &&
-                            std::ranges::is_permutation(joints, able.joints);
+    if (!able.channel) return move_on_board(type, joints) ? std::nullopt : std::optional(joints);
+    const bool is_its_own =
+        entry.kind == ControllerEntry::Kind::kTrajectory && std::ranges::is_permutation(joints, able.joints);
     return is_its_own ? std::optional(joints) : std::nullopt;
 }
 
@@ -38,7 +59,21 @@ std::string why_unused(const ControllerEntry& entry, const Model& model) {
             return "no robot has the joint '" + joint.substr(0, 100) + "'; " +
                    did_you_mean(joint, names, "`roboss check WORLD --names` prints them");
     if (!entry.space.empty()) return "no robot '" + entry.space.substr(0, 100) + "' has all of its joints";
-    return "no robot has all of its joints, with motors, and no on-board controller of its own";
+    if (entry.drive)
+        return "no robot has it on board; give the file to `roboss run` or `roboss controller` "
+               "(--ros2-controllers), and take plugins that move these joints out of the world file";
+    return "no robot has all of its joints, with motors, and no on-board controller that moves them";
+}
+
+/// The frame of a robot's base is named after its first link.
+void add_notice_of_base(const std::string& file, const ControllerEntry& entry, const RobotType& type,
+                        std::vector<std::string>& lines) {
+    if (!entry.drive || entry.drive->base_frame.empty() || type.links.empty()) return;
+    const std::string base = ros_name(type.links.front().name);
+    if (entry.drive->base_frame != base)
+        lines.push_back(at_line(file, entry.drive->base_frame_line) + "base_frame_id of '" + entry.name +
+                        "' has no effect: the base of the robot is its link '" + base +
+                        "' [controller-parameter]");
 }
 
 }  // namespace
@@ -66,13 +101,26 @@ std::vector<RobotController> controllers_of(const Controllers& controllers, cons
     return found;
 }
 
+const DriveController* drive_of(const Controllers& controllers, const RobotType& type,
+                                const std::string& robot, const SensorSpec& sensor) {
+    if (!sensor.as<WheelOdometrySpec>()) return nullptr;
+    for (const RobotController& has : controllers_of(controllers, type, robot))
+        if (has.entry->drive && has.entry->drive->odometry == sensor.ros_topic) return has.entry->drive.get();
+    return nullptr;
+}
+
 std::vector<std::string> controller_notices(const Controllers& controllers, const Model& model,
                                             const std::vector<std::string>& robots) {
     std::vector<const ControllerEntry*> used;
-    for (std::size_t r = 0; r < robots.size(); ++r)
-        for (const RobotController& has : controllers_of(controllers, model.type_of(RobotId(r)), robots[r]))
-            used.push_back(has.entry);
     std::vector<std::string> lines = controllers.notices;
+    for (std::size_t r = 0; r < robots.size(); ++r) {
+        const RobotType& type = model.type_of(RobotId(r));
+        for (const RobotController& has : controllers_of(controllers, type, robots[r])) {
+            if (std::ranges::find(used, has.entry) != used.end()) continue;
+            used.push_back(has.entry);
+            add_notice_of_base(controllers.file, *has.entry, type, lines);
+        }
+    }
     for (const ControllerEntry& entry : controllers.entries)
         if (std::ranges::find(used, &entry) == used.end())
             lines.push_back(at_line(controllers.file, entry.line) + "the controller '" + entry.name +

@@ -17,12 +17,17 @@ struct RobotController {
 };
 
 /// Those of a robot of this type with this name (robot_names.h), in the order of the file. None of those
-/// whose joints on-board controllers move, but for trajectories of an on-board controller of all these
-/// joints.
+/// whose joints on-board controllers move, but for drives that the Model has (world_drives.h), and for
+/// trajectories of an on-board controller of all these joints.
 std::vector<RobotController> controllers_of(const Controllers& controllers, const RobotType& type,
                                             const std::string& robot);
 
-/// Controllers that have no effect, one line each: file, line and why. `robots`: names by RobotId.
+/// The drive whose odometry this sensor of a robot is; null: it is that of no drive of the file.
+const DriveController* drive_of(const Controllers& controllers, const RobotType& type,
+                                const std::string& robot, const SensorSpec& sensor);
+
+/// Controllers and parameters that have no effect, one line each: file, line and why. `robots`: names by
+/// RobotId.
 std::vector<std::string> controller_notices(const Controllers& controllers, const Model& model,
                                             const std::vector<std::string>& robots);
 

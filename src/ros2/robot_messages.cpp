@@ -53,7 +53,7 @@ void add_moving_links(const RobotType& type, const RobotState& state, const std:
         } else if (!seen) {
             add("world", l, pose_of(link));
         } else if (l == 0) {
-            add(seen->frame, l, seen->X_FB);
+            if (!seen->frame.empty()) add(seen->frame, l, seen->X_FB);
         } else {
             on(0);
         }

@@ -20,7 +20,7 @@ void add_fixed_links(const RobotType& type, const std::vector<std::string>& name
 
 /// Where an odometry sees the first base of a robot.
 struct SeenBase {
-    std::string frame;  ///< of the odometry
+    std::string frame;  ///< of the odometry; empty: others say where the base is
     Transform X_FB;     ///< the base in it, m
 };
 /// Adds the links that move: bases in "world", others on their parents. With `seen` the first base stands in

@@ -6,6 +6,7 @@
 
 #include "ros2/bridged_topics.h"
 #include "ros2/fleet_topics.h"
+#include "ros2/robot_controllers.h"
 #include "ros2/robot_messages.h"
 #include "ros2/robot_names.h"
 #include "ros2/sensor_messages.h"
@@ -53,7 +54,7 @@ RobotTopics::RobotTopics(RobotTopics&&) noexcept = default;
 RobotTopics& RobotTopics::operator=(RobotTopics&&) noexcept = default;
 
 RobotTopics::RobotTopics(std::shared_ptr<const Model> model, const TopicOptions& options)
-    : model_(std::move(model)) {
+    : model_(std::move(model)), controllers_(options.controllers) {
     topics_ = {{"/clock", &type_of<Clock>(), false, {}},
                {"/tf", &type_of<TFMessage>(), false, {}},
                {"/tf_static", &type_of<TFMessage>(), true, {}}};
@@ -138,7 +139,7 @@ void RobotTopics::add_sensors(RobotId robot, Taken& taken) {
         const SensorInfo& info = type.sensors[s];
         const std::string sensor_name = ros_name(info.spec.name);
         const bool is_camera = sensor_messages::optics_of(info.spec) != nullptr;
-        Source source{robot, s, topics_.size(), 0, "", "", "", {}};
+        Source source{robot, s, topics_.size(), 0, "", "", "", {}, nullptr};
         for_each_topic(*model_, info, [&]<class M>(const char* suffix, const M&) {
             const bool is_named = is_camera || uses[suffix] > 1;
             const std::string usual = (is_named ? sensor_name + "/" : "") + suffix;
@@ -156,7 +157,11 @@ void RobotTopics::add_sensors(RobotId robot, Taken& taken) {
             source.odometry_frame = part.prefix + (given.empty() ? "odom" : ros_path(given));
             if (info.spec.as<WheelOdometrySpec>())
                 source.X_WO = to_transform(model_->robots[robot.index()].X_WR);
-            if (part.odometry == kNone) part.odometry = sources_.size();
+            if (controllers_) source.drive = drive_of(*controllers_, type, part.name, info.spec);
+            if (part.odometry == kNone) {
+                part.odometry = sources_.size();
+                part.publishes_base = source.drive == nullptr || source.drive->publishes_base;
+            }
         } else if (const std::string given = ros_path(info.spec.ros_frame); part.is_link(given)) {
             source.frame = given;  // as with Gazebo: the file has a link for it
         } else {

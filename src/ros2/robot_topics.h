@@ -86,7 +86,8 @@ class RobotTopics {
         std::size_t sensor = 0;
         std::size_t first = 0, count = 0;  // its topics
         std::string frame, optical_frame, odometry_frame;
-        Transform X_WO;  // of an odometry: its frame in the world
+        Transform X_WO;                          // of an odometry: its frame in the world
+        const DriveController* drive = nullptr;  // of an odometry: that of controllers_ whose it is
     };
 
     /// The names of a robot.
@@ -101,6 +102,7 @@ class RobotTopics {
         std::size_t description = 0;                             // its topic
         std::vector<std::size_t> tf{kTf}, tf_static{kTfStatic};  // topics of its frames
         std::size_t odometry = kNone;                            // its first odometry, in sources_
+        bool publishes_base = true;  // in its odometry's frame; false: others say where it is
 
         bool is_link(const std::string& frame) const {
             return std::ranges::find(frames, frame) != frames.end();
@@ -120,6 +122,7 @@ class RobotTopics {
     void add_readings(const Source& source, Tick tick, const Sample& sample, std::vector<Message>& out) const;
 
     std::shared_ptr<const Model> model_;
+    std::shared_ptr<const Controllers> controllers_;  // of a file; null: there is none
     std::vector<Topic> topics_;
     std::vector<bool> wanted_;
     std::vector<std::string> left_out_, bridge_notices_;

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "model/model.h"
+#include "ros2/drive_controller.h"
 #include "ros2_types/messages/gazebo_messages.h"
 #include "ros2_types/messages/sensor_messages.h"
 #include "sensor_kinds/sensor_spec.h"
@@ -13,13 +14,14 @@ namespace roboss::ros2 {
 /// Whose messages they are.
 struct SensorPlace {
     const Model& model;
-    const SensorInfo& info;  ///< the sensor
-    std::string frame,       ///< of the sensor
-        link_frame,          ///< of the link that carries it
-        optical_frame,       ///< of a camera: z ahead, x right, y down
-        base_frame,          ///< of the robot's base link
-        odometry_frame;      ///< of the poses of an odometry
-    Time stamp;              ///< of the measurement
+    const SensorInfo& info;                  ///< the sensor
+    std::string frame,                       ///< of the sensor
+        link_frame,                          ///< of the link that carries it
+        optical_frame,                       ///< of a camera: z ahead, x right, y down
+        base_frame,                          ///< of the robot's base link
+        odometry_frame;                      ///< of the poses of an odometry
+    Time stamp;                              ///< of the measurement
+    const DriveController* drive = nullptr;  ///< whose odometry it is, with its covariances; null: of none
 };
 
 namespace sensor_messages {
@@ -177,6 +179,10 @@ void publish(const WheelOdometrySpec&, const WheelOdometryReading& reading, cons
     const Pose seen = sensor_messages::odometry_pose(reading);
     odometry.pose.pose = sensor_messages::pose(seen.p, seen.q);
     odometry.twist.twist.linear.x = reading.linear, odometry.twist.twist.angular.z = reading.angular;
+    for (std::size_t i = 0; place.drive != nullptr && i < 6; ++i) {
+        odometry.pose.covariance[7 * i] = place.drive->pose_covariance[i];
+        odometry.twist.covariance[7 * i] = place.drive->twist_covariance[i];
+    }
     out("odom", odometry);
 }
 

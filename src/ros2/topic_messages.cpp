@@ -65,7 +65,10 @@ Result<> RobotTopics::add_moving_frames(Tick tick, std::span<const RobotState> s
         const RobotPart& part = robots_[r];
         if (std::ranges::none_of(part.tf, [&](std::size_t topic) { return wanted_[topic]; })) continue;
         std::optional<SeenBase> seen;
-        if (part.is_plain && part.odometry != kNone) {
+        const bool sees_base = part.is_plain && part.odometry != kNone;
+        if (sees_base && !part.publishes_base) {
+            seen.emplace();
+        } else if (sees_base) {
             const Source& source = sources_[part.odometry];
             const Result<std::optional<Sample>> sample = measure(source.robot, source.sensor);
             if (!sample) return sample.error();
@@ -114,7 +117,8 @@ void RobotTopics::add_readings(const Source& source, Tick tick, const Sample& sa
                             source.optical_frame,
                             robots_[source.robot.index()].frames.front(),
                             source.odometry_frame,
-                            stamp_of(*model_, tick)};
+                            stamp_of(*model_, tick),
+                            source.drive};
     std::size_t topic = source.first;
     publish(place, &sample, [&](const char*, const auto& message) {
         if (wanted_[topic]) out.push_back({topic, to_cdr(message)});

@@ -15,6 +15,7 @@
 #include "app/commands/exit_codes.h"
 #include "app/output/findings.h"
 #include "app/output/say.h"
+#include "app/ros2/ros2_options.h"
 #include "app/run/run.h"
 #include "app/worlds/examples.h"
 #include "app/worlds/plugin_census.h"
@@ -23,6 +24,9 @@
 #include "model/model.h"
 #include "model/on_ground.h"
 #include "physics/start_overlaps.h"
+#include "ros2/robot_controllers.h"
+#include "ros2/robot_names.h"
+#include "ros2/world_drives.h"
 #include "sdf/load_world.h"
 #include "world/bare_model.h"
 
@@ -47,6 +51,7 @@ struct CheckOptions {
     BareModelOptions bare;
     bool on_ground = false;
     std::string keyframe;
+    std::shared_ptr<const ros2::Controllers> controllers;
     bool json = false, all = false, names = false;
 };
 
@@ -216,6 +221,12 @@ nlohmann::json to_json(const std::vector<PluginReport>& plugins) {
     return list;
 }
 
+/// What of a file of ros2_control has no effect in the world.
+void print_notices(const ros2::Controllers& controllers, const Model& model) {
+    for (const std::string& line : ros2::controller_notices(controllers, model, ros2::robot_names(model, "")))
+        say("{}\n", line);
+}
+
 /// Prints the report on one file, or adds it to `reports`. Returns its exit code.
 int check(const std::string& file, const CheckOptions& options, nlohmann::json& reports) {
     Diagnostics diagnostics;
@@ -224,6 +235,7 @@ int check(const std::string& file, const CheckOptions& options, nlohmann::json& 
         if (const Result<> completed = complete(*world, options.bare); !completed)
             diagnostics.error({file, 0}, completed.error().code, completed.error().message,
                               completed.error().remedy);
+    if (world && options.controllers) ros2::add_drives(*options.controllers, "", "", *world);
     // Compiling finds errors of the joint graph: loops, unconnected parts.
     std::shared_ptr<const Model> model;
     if (world && !diagnostics.refuses()) model = compile(*world, {}, diagnostics);
@@ -249,6 +261,7 @@ int check(const std::string& file, const CheckOptions& options, nlohmann::json& 
         print_text(commands);
         if (world) print_text(plugins, world->file);
         print_text(diagnostics, options.all);
+        if (runs && options.controllers) print_notices(*options.controllers, *model);
         if (diagnostics.has_errors())
             say("{}\n", runs ? "`roboss run` leaves out the models with errors, or refuses with --strict"
                              : "`roboss run` refuses this world");
@@ -297,6 +310,7 @@ void add_check_command(CLI::App& app, int& exit_code) {
     command
         ->add_option("--keyframe", options->keyframe, "as of `roboss run`: start an MJCF file at this <key>")
         ->type_name("NAME");
+    add_controllers_option(*command, "--ros2-controllers", options->controllers);
     command->add_flag("--all", options->all, "print every finding (default: one of those that are alike)");
     command->add_flag(
         "--names", options->names,

@@ -228,5 +228,22 @@ TEST(CheckCommand, OnGroundMendsARobotThatStartsInTheGround) {
     EXPECT_EQ(check(ball, {"--json", "--fixed-base", "nobody"}).exit_code, 1);
 }
 
+TEST(CheckCommand, SaysWhatOfAFileOfRos2ControlHasNoEffect) {
+    const std::filesystem::path file = std::filesystem::temp_directory_path() / "roboss-check-drive.yaml";
+    std::ofstream(file)
+        << "controller_manager: {ros__parameters: {base: {type: "
+           "diff_drive_controller/DiffDriveController}}}\n"
+           "base: {ros__parameters: {left_wheel_names: [l], right_wheel_names: [r], wheel_separation: 1,\n"
+           "  wheel_radius: 1, open_loop: true}}\n";
+    const Outcome outcome = check(world("1"), {"--ros2-controllers", file.string()});
+    std::filesystem::remove(file);
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.printed;
+    EXPECT_NE(outcome.printed.find(":3: open_loop of 'base' has no effect"), std::string::npos)
+        << outcome.printed;
+    EXPECT_NE(outcome.printed.find(":1: the controller 'base' has no effect: no robot has the joint 'l'"),
+              std::string::npos)
+        << outcome.printed;
+}
+
 }  // namespace
 }  // namespace roboss

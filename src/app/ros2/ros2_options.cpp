@@ -63,6 +63,13 @@ void add_file_option(CLI::App& command, const std::string& name,
 
 }  // namespace
 
+void add_controllers_option(CLI::App& command, const std::string& name,
+                            std::shared_ptr<const ros2::Controllers>& controllers) {
+    add_file_option(command, name, ros2::read_controllers, controllers,
+                    "YAML file of ros2_control: robots have its controllers of joints and wheels, by their "
+                    "names");
+}
+
 void add_face_options(CLI::App& command, ros2::FaceOptions& face, const std::string& prefix) {
     command
         .add_option(prefix + "period", face.period_s,
@@ -87,8 +94,7 @@ void add_face_options(CLI::App& command, ros2::FaceOptions& face, const std::str
     add_file_option(
         command, prefix + "bridge", ros2::read_bridge, topics.bridge,
         "YAML file of ros_gz_bridge: the topics of Gazebo that it names have its names and types");
-    add_file_option(command, prefix + "controllers", ros2::read_controllers, topics.controllers,
-                    "YAML file of ros2_control: robots have its joint controllers, by their names");
+    add_controllers_option(command, prefix + "controllers", topics.controllers);
     command
         .add_option(prefix + "services", face.services.simulation.prefix,
                     "what stands in front of the names of simulation_interfaces, e.g. /gzserver (default: "

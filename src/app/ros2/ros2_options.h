@@ -2,6 +2,7 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -19,6 +20,9 @@ struct Ros2Options {
     std::vector<std::string> peers;
 };
 
+/// Declares an option that takes the file of ros2_control, read at once.
+void add_controllers_option(CLI::App& command, const std::string& name,
+                            std::shared_ptr<const ros2::Controllers>& controllers);
 /// Declares --period, --services and those of TopicOptions with this prefix.
 void add_face_options(CLI::App& command, ros2::FaceOptions& face, const std::string& prefix);
 /// Adds them to the arguments of a process.

@@ -158,6 +158,7 @@ bool Run::prepare() {
     if (world)
         if (Result<> completed = complete(*world, o_.bare); !completed)
             return print(completed.error()), false;
+    if (world) add_drives(o_, "", *world);
     if (world && !refused()) model_ = compile(*world, compile_options(), diagnostics);
     if (world) world_speed_ = world->real_time_factor;
     if (model_ && o_.on_ground) model_ = stood_on_ground(*model_, {world->file, 0}, diagnostics);

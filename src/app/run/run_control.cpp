@@ -335,6 +335,8 @@ Run::Done Run::act(const AddModels& add) {
                      "free some space there, and give the name of a file", "not-writable"};
     Diagnostics found;
     std::optional<World> world = load_world(file.string(), {o_.paths, {}, true}, found);
+    const std::string& name = add.copies.size() == 1 ? add.copies.front().name : add.name;
+    if (world) add_drives(o_, name, *world);
     CompileOptions options;
     options.dt_s = model_->dt_s;
     const auto addition = world && !found.has_errors() ? compile(*world, options, found) : nullptr;

@@ -10,6 +10,7 @@
 #include "app/processes/network_options.h"
 #include "app/run/journal_limit.h"
 #include "model/accuracy.h"
+#include "ros2/world_drives.h"
 #include "wire/control.h"
 
 namespace roboss {
@@ -315,6 +316,11 @@ void add_name_option(CLI::App& command, RunOptions& o) {
 }
 
 }  // namespace
+
+void add_drives(const RunOptions& options, const std::string& name, World& world) {
+    for (const ros2::TopicOptions* topics : {&options.ros2.face.topics, &options.foxglove.face.topics})
+        if (topics->controllers) ros2::add_drives(*topics->controllers, topics->root, name, world);
+}
 
 void add_run_options(CLI::App& command, RunOptions& o) {
     command.footer(fmt::format("{}\n\n{}", kRunOptionsFooter, kExitCodes));

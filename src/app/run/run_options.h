@@ -86,6 +86,10 @@ struct RunOptions {
     bool shows_progress() const { return !quiet || quiet_but_progress; }
 };
 
+/// Gives the models of a World the drives of the files of ros2_control. `name`: what the only model is called
+/// where the World is added to a run; empty: as in the World.
+void add_drives(const RunOptions& options, const std::string& name, World& world);
+
 /// Of `roboss run`: all members on this computer.
 void add_run_options(CLI::App& command, RunOptions& options);
 /// Of `roboss replay`: a journal instead of a world.
