@@ -146,7 +146,7 @@ inside() {
     mount -t tmpfs -o mode=1777 tmpfs dev/shm
     mount -t devpts -o newinstance,ptmxmode=0666,mode=620 devpts dev/pts
     mount -t tmpfs -o mode=755 tmpfs run
-    local names=(TERM http_proxy https_proxy ftp_proxy all_proxy no_proxy HTTP_PROXY HTTPS_PROXY FTP_PROXY ALL_PROXY NO_PROXY
+    local names=(TERM ROBOSS_COMMIT http_proxy https_proxy ftp_proxy all_proxy no_proxy HTTP_PROXY HTTPS_PROXY FTP_PROXY ALL_PROXY NO_PROXY
         PIP_INDEX_URL PIP_EXTRA_INDEX_URL PIP_TRUSTED_HOST PIP_DEFAULT_TIMEOUT npm_config_registry NPM_CONFIG_REGISTRY)
     local name variables=(HOME=/root PATH=/usr/local/sbin:/usr/local/bin:/usr/sbin:/usr/bin:/sbin:/bin)
     for name in "${names[@]}"; do
@@ -179,6 +179,9 @@ root=$(realpath "$root")
 copy_settings
 copy_repository
 [[ $# -gt 0 ]] || exit 0
+# The copy has no .git, so it is told its commit (src/app/CMakeLists.txt).
+ROBOSS_COMMIT=${ROBOSS_COMMIT:-$(git -c safe.directory="*" -C "$here/.." describe --always --dirty --exclude='*' 2>/dev/null || true)}
+export ROBOSS_COMMIT
 # In the background, for a shell hears signals while it waits, and not before its child ends. unshare itself blocks SIGTERM.
 env --default-signal=INT,QUIT setpriv --pdeathsig KILL \
     unshare --mount --propagation private --pid --fork --kill-child=KILL "$BASH" "$here/bare_root.sh" --inside "$root" "$@" <&0 &

@@ -3,7 +3,7 @@
 #   roboss-VERSION-cp311-*.whl            the Python package, with the command `roboss` (tools/build_wheel.sh)
 #   roboss-VERSION-cp312-abi3-*.whl       the same for Python 3.12 and later (tools/build_more_wheels.sh)
 #   roboss-VERSION-linux-x86_64.tar.xz    runs from any folder: command, libraries, headers, page, worlds, control programs
-#   roboss_VERSION_amd64.deb              the same for /usr, with dependencies on Debian's packages
+#   roboss_VERSION_amd64.deb              the same for /usr, with dependencies on packages of Debian 12
 #   SHA256SUMS
 # --no-build takes build/release as it is. Afterwards, `tools/release.sh --aarch64 [DIR]` adds the same four for aarch64,
 # cross-compiled in the root of tools/check_aarch64 (as root; DIR as there). What is the same for every processor, such as

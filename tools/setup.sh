@@ -62,19 +62,14 @@ install_packages() {
         as_root=(sudo)
     fi
     printf 'setup: installing %s\n' "$*"
+    exec 3>&1
     # An update that fails in part (a dead third-party source) need not keep the packages away; the install tells.
     "${as_root[@]}" apt-get update -q || printf 'setup: apt-get update failed, trying with the lists that are there\n' >&2
-    local log
-    log=$(mktemp) || fail "no file can be made in ${TMPDIR:-/tmp}
-  remedy: free some space there, or set TMPDIR to another folder"
-    if ! "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive LC_ALL=C.UTF-8 \
-        apt-get install -q -y --no-install-recommends "$@" 2>&1 | tee "$log"; then
-        local words
-        words=$(<"$log")
-        rm -f "$log"
-        explain "$words" "$@"
-    fi
-    rm -f "$log"
+    # The words are kept in memory: on a full disk, a file of them would be empty.
+    local words
+    words=$("${as_root[@]}" env DEBIAN_FRONTEND=noninteractive LC_ALL=C.UTF-8 \
+        apt-get install -q -y --no-install-recommends "$@" 2>&1 |
+        while IFS= read -r line; do printf '%s\n' "$line" >&3 && printf '%s\n' "$line"; done) || explain "$words" "$@"
 }
 
 # Ends with the reason why apt-get did not install the packages, from its words.

@@ -106,6 +106,20 @@ TEST(UrdfParts, AFloatingJointLeavesSixDegreesOfFreedom) {
     EXPECT_EQ(pair.world->prototypes[0].links[1].X_ML.p, (Vec3{1, 2, 3}));
 }
 
+/// Where roll and yaw turn about one axis: two quarter turns are a half turn.
+TEST(UrdfParts, APitchOfNinetyDegreesTurnsByNinetyDegrees) {
+    const std::string origin = kFreeHinge + "<origin xyz='1 0 0' rpy='0 1.5707963267948966 0'/>";
+    const Loaded loaded =
+        load_robot(heavy("a") + heavy("b") + heavy("c") + joint("first", "continuous", "a", "b", origin) +
+                   joint("second", "continuous", "b", "c", origin));
+    ASSERT_TRUE(loaded.world) << loaded.text();
+    const ModelSpec& model = loaded.world->prototypes.at(0);
+    ASSERT_EQ(model.links.size(), 3u);
+    const Pose& tip = model.links[2].X_ML;
+    EXPECT_LT(norm(tip.p - Vec3{1, 0, -1}), 1e-15);
+    EXPECT_LT(norm(tip * Vec3{1, 2, 3} - Vec3{0, 2, -4}), 1e-14);
+}
+
 TEST(UrdfParts, ASphericalJointIsABall) {
     const Loaded loaded = load_robot(heavy("a") + heavy("b") + joint("j", "spherical", "a", "b"));
     ASSERT_TRUE(loaded.world) << loaded.text();

@@ -1,9 +1,12 @@
 """`roboss examples`, `roboss run example:NAME` and `roboss doctor`."""
 import json
 import os
+import resource
+import signal
+import subprocess
 import unittest
 
-from running import DRIVER, FOLDER, WORLDS, RobossTest, roboss, summary
+from running import DRIVER, FOLDER, ROBOSS, WORLDS, RobossTest, roboss, summary
 
 
 class Examples(RobossTest):
@@ -65,6 +68,15 @@ class Doctor(RobossTest):
         self.assertEqual(done.returncode, 1, done.stdout)
         self.assertIn("WRONG: no file can be written there", done.stdout)
         self.assertIn("remedy:", done.stdout)
+
+    def test_it_finds_a_disk_that_takes_folders_and_no_bytes(self):
+        def takes_no_bytes():
+            signal.signal(signal.SIGXFSZ, signal.SIG_IGN)  # writing fails, as on a full disk
+            resource.setrlimit(resource.RLIMIT_FSIZE, (0, 0))
+
+        done = subprocess.run([ROBOSS, "doctor"], preexec_fn=takes_no_bytes, capture_output=True, text=True, check=False)
+        self.assertEqual(done.returncode, 1, done.stdout)
+        self.assertIn("WRONG: no file can be written there", done.stdout)
 
 
 if __name__ == "__main__":

@@ -119,7 +119,8 @@ class Setup(unittest.TestCase):
                 ("E: something else", "apt-get could not install: libbenchmark-dev", "read apt's message")):
             with self.subTest(words=words):
                 self.stand_in("apt-get", f'#!/bin/bash\n[[ $1 == install ]] || exit 0\necho "{words}" >&2\nexit 100\n')
-                code, output, _ = self.run_setup([], "bench", ROBOSS_OS_RELEASE=self.os_release("bookworm"))
+                # A full disk takes no file of apt's words, so the reason must be found without one.
+                code, output, _ = self.run_setup([], "bench", ROBOSS_OS_RELEASE=self.os_release("bookworm"), TMPDIR="/no/such/folder")
                 self.assertEqual(code, 1)
                 for word in (words, said, "  remedy: ", remedy):
                     self.assertIn(word, output)

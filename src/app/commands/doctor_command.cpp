@@ -77,8 +77,20 @@ Item system() {
                                   kernel.sysname, kernel.release, kernel.machine)};
 }
 
+/// What a processor of ARM says about itself: the board, or else its maker's number and its own.
+std::string arm_processor() {
+    std::string board;
+    std::getline(std::ifstream("/sys/firmware/devicetree/base/model"), board, '\0');
+    const std::string part = value_in("/proc/cpuinfo", "CPU part", ':');
+    if (part.empty()) return board;
+    const std::string numbers =
+        fmt::format("ARM implementer {}, part {}", value_in("/proc/cpuinfo", "CPU implementer", ':'), part);
+    return board.empty() ? numbers : board + ", " + numbers;
+}
+
 Item processor() {
-    const std::string name = value_in("/proc/cpuinfo", "model name", ':');
+    std::string name = value_in("/proc/cpuinfo", "model name", ':');
+    if (name.empty()) name = arm_processor();
     return {"processor", fmt::format("{}, {} for this process", name.empty() ? "unknown" : name, cores())};
 }
 
@@ -105,6 +117,7 @@ Item memory() {
         return std::atof(value_in("/proc/meminfo", key, ':').c_str()) / kKiB_of_GiB;
     };
     const double available = read("MemAvailable");
+    if (read("MemTotal") == 0) return {"memory", "unknown (/proc/meminfo cannot be read)"};
     Item item{"memory", fmt::format("{:.1f} GiB, {:.1f} available", read("MemTotal"), available)};
     if (available < kFew_GiB) {
         item.problem = "little memory is left";
@@ -125,11 +138,28 @@ Item open_files() {
     return item;
 }
 
+/// A full disk still takes an empty folder, so some bytes must fit into a file.
+bool can_write_files() {
+    const auto folder = PrivateFolder::make("doctor");
+    if (!folder) return false;
+    std::ofstream file(folder.value().path() / "tried");
+    file << std::string(1 << 16, 'x');
+    file.close();
+    return file.good();  // closed, so written
+}
+
+/// The most that a socket may hold, which limits bursts that the face of ROS 2 gets over a network.
+Item receive_buffer() {
+    std::string bytes;
+    std::ifstream("/proc/sys/net/core/rmem_max") >> bytes;
+    return {"rmem_max", bytes.empty() ? "unknown" : bytes + " bytes"};
+}
+
 Item temporary_files() {
     std::error_code error;
     const fs::path folder = fs::temp_directory_path(error);
     Item item{"temporary files", error ? "no folder" : folder.string()};
-    if (!PrivateFolder::make("doctor")) {
+    if (!can_write_files()) {
         item.problem = "no file can be written there";
         item.remedy = "free some space, or name another folder with TMPDIR";
     }
@@ -186,6 +216,7 @@ std::vector<Item> examine() {
             load(),
             memory(),
             open_files(),
+            receive_buffer(),
             temporary_files(),
             runs(),
             page(),
