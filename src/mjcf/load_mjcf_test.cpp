@@ -127,6 +127,19 @@ TEST(LoadMjcf, AnEndTagTooManyAtTheEndIsAWarningAndOneTooFewAnError) {
         EXPECT_NE(load_text(text).find("malformed-xml"), nullptr) << text;
 }
 
+TEST(LoadMjcf, AttributesThatNoSpacePartsAreReadWithAWarning) {
+    const Loaded loaded = load_text(
+        "<mujoco><!-- \"a\"b -->\n<worldbody><body><freejoint/>\n"
+        "<geom name=\"it's\"type='box'size='.1 .2 .3'/></body></worldbody></mujoco>");
+    ASSERT_TRUE(loaded.world) << loaded.text();
+    ASSERT_NE(loaded.find("attributes-together"), nullptr) << loaded.text();
+    EXPECT_EQ(loaded.find("attributes-together")->where.line, 3);
+    const auto& box = loaded.world->prototypes[0].links[0].collisions.at(0);
+    EXPECT_EQ(box.where.line, 3);
+    EXPECT_EQ(box.geometry.size.y, 0.4);
+    EXPECT_NE(load_text("<mujoco a='1'b=></mujoco>").find("malformed-xml"), nullptr);
+}
+
 TEST(LoadMjcf, ClassesReachElementsThroughChildclass) {
     const Loaded loaded = load_bodies(
         "<body name='b' childclass='c'><joint name='j'/><geom size='.1'/><geom class='main' "

@@ -1,6 +1,8 @@
 // Files of others: values that Gazebo takes and that are not quite right.
 #include <gtest/gtest.h>
 
+#include <limits>
+
 #include "sdf/test_files.h"
 
 namespace roboss {
@@ -95,6 +97,20 @@ TEST(ForeignValues, PackagesExportFoldersForModelsAndMedia) {
     folder.write("own/worlds/bad.sdf",
                  "<sdf version='1.6'><world name='w'>" + mesh("file://media/gone.obj") + "</world></sdf>");
     EXPECT_NE(folder.load("own/worlds/bad.sdf").find("file-not-found"), nullptr);
+}
+
+TEST(ForeignValues, NegativeFrictionHasNoBoundAsInGazeboClassic) {
+    const Loaded loaded = load_elements(
+        "<model name='m'>" +
+        link("l",
+             "<collision name='c'><geometry><sphere><radius>1</radius></sphere></geometry><surface><friction>"
+             "<ode><mu>-1.000000</mu><mu2>-1.000000</mu2></ode></friction></surface></collision>") +
+        "</model>");
+    ASSERT_TRUE(loaded.world) << loaded.text();
+    EXPECT_FALSE(loaded.diagnostics.has_errors()) << loaded.text();
+    const SurfaceSpec& surface = loaded.world->prototypes.at(0).links.at(0).collisions.at(0).surface;
+    EXPECT_EQ(surface.mu, std::numeric_limits<double>::infinity());
+    EXPECT_EQ(surface.mu2, std::numeric_limits<double>::infinity());
 }
 
 }  // namespace

@@ -1,4 +1,6 @@
 // <surface> and <max_contacts> of a collision. What is written and has no effect is reported.
+#include <limits>
+
 #include "sdf/conversion.h"
 
 namespace roboss::sdf_import {
@@ -16,10 +18,16 @@ void no_effect(const Element& parent, const char* child, const std::string& why,
                               "<" + std::string(child) + "> has no effect: " + why);
 }
 
+/// A negative coefficient is one without bound, as in Gazebo Classic.
+double coefficient_of_friction(const Element& ode, const char* child, double usual, const Import& import) {
+    const double mu = import.reader.number(ode, child, usual, Finite::kInfinityAllowed);
+    return mu < 0 ? std::numeric_limits<double>::infinity() : mu;
+}
+
 void read_ode_friction(const Element& ode, const Import& import, SurfaceSpec& spec) {
     const ElementReader& reader = import.reader;
-    spec.mu = reader.number(ode, "mu", 1.0, Finite::kInfinityAllowed);
-    spec.mu2 = reader.number(ode, "mu2", spec.mu, Finite::kInfinityAllowed);
+    spec.mu = coefficient_of_friction(ode, "mu", 1.0, import);
+    spec.mu2 = coefficient_of_friction(ode, "mu2", spec.mu, import);
     spec.fdir1 = reader.vector(ode, "fdir1", {});
     for (const char* attribute : {"gz:expressed_in", "ignition:expressed_in"})
         if (const auto link = ode.child("fdir1").node.attribute(attribute)) spec.fdir1_link = link.value();

@@ -4,11 +4,13 @@
 #include <algorithm>
 #include <cctype>
 #include <cstdint>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "core/similar.h"
@@ -135,6 +137,42 @@ std::size_t end_before_stray_tags(const std::string& text, const pugi::xml_parse
     return tag;
 }
 
+/// The text with a space after each quoted value of a tag that another attribute follows at once: a="1"b="2".
+/// XML forbids it; TinyXML-2 reads it.
+std::string with_attributes_apart(const std::string& text) {
+    constexpr std::pair<const char*, const char*> kPassedOver[] = {
+        {"<!--", "-->"}, {"<![CDATA[", "]]>"}, {"<?", "?>"}, {"<!", ">"}};
+    std::string out;
+    std::size_t at = 0;
+    bool in_tag = false;
+    const auto copy_until = [&](std::size_t end) {
+        end = std::min(end, text.size());
+        out.append(text, at, end - at);
+        at = end;
+    };
+    const auto copy_past = [&](const char* end, std::size_t from) {
+        const std::size_t found = text.find(end, from);
+        copy_until(found == text.npos ? found : found + std::strlen(end));
+    };
+    while (at < text.size()) {
+        const char c = text[at];
+        const auto passed_over = std::ranges::find_if(kPassedOver, [&](const auto& kind) {
+            return text.compare(at, std::strlen(kind.first), kind.first) == 0;
+        });
+        if (!in_tag && passed_over != std::end(kPassedOver)) {
+            copy_past(passed_over->second, at + std::strlen(passed_over->first));
+        } else if (in_tag && (c == '"' || c == '\'')) {
+            copy_past(c == '"' ? "\"" : "'", at + 1);
+            const char next = at < text.size() ? text[at] : ' ';
+            if (!is_space(next) && next != '/' && next != '>') out += ' ';
+        } else {
+            in_tag = c == '<' || (in_tag && c != '>');
+            copy_until(at + 1);
+        }
+    }
+    return out;
+}
+
 }  // namespace
 
 std::unique_ptr<SourceFile> SourceFile::read(const std::string& path, Diagnostics& diagnostics) {
@@ -171,17 +209,31 @@ std::unique_ptr<SourceFile> SourceFile::from_text(const std::string& path, std::
     return file;
 }
 
-bool SourceFile::parse(std::string text, Diagnostics& diagnostics, int deepest) {
-    line_starts_.push_back(0);
-    for (std::size_t at = text.find('\n'); at != std::string::npos; at = text.find('\n', at + 1)) {
+void SourceFile::find_lines(const std::string& text) {
+    line_starts_.assign(1, 0);
+    for (std::size_t at = text.find('\n'); at != std::string::npos; at = text.find('\n', at + 1))
         line_starts_.push_back(at + 1);
-    }
+}
+
+bool SourceFile::parse(std::string text, Diagnostics& diagnostics, int deepest) {
+    find_lines(text);
     auto result = parsed(document_, text);
     const std::size_t whole = end_before_stray_tags(text, result);
     if (whole != text.size() && parsed(document_, text.substr(0, whole))) {
         diagnostics.warning({path_, line_of_offset(result.offset)}, "stray-end-tag",
                             "an end tag after the end of the file's element is passed over", "Remove it.");
         result.status = pugi::status_ok;
+    }
+    if (result.status == pugi::status_bad_attribute) {
+        const int line = line_of_offset(result.offset);
+        const std::string apart = with_attributes_apart(text);
+        if (apart.size() != text.size() && parsed(document_, apart)) {
+            diagnostics.warning({path_, line}, "attributes-together",
+                                "no space parts an attribute from the one before it; it is read all the same",
+                                "Write a space between them.");
+            result.status = pugi::status_ok;
+            find_lines(apart);
+        }
     }
     if (!result && is_other_text(text)) {
         diagnostics.error(

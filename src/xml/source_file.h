@@ -45,6 +45,7 @@ class SourceFile {
 
   private:
     bool parse(std::string text, Diagnostics& diagnostics, int deepest);
+    void find_lines(const std::string& text);
     int line_of_offset(std::ptrdiff_t offset) const;
 
     std::string path_;
