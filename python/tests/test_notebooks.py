@@ -25,4 +25,4 @@ def test_runs(notebook, tmp_path):
 
 
 def test_there_are_notebooks():
-    assert len(NOTEBOOKS) >= 4
+    assert len(NOTEBOOKS) >= 6
