@@ -27,7 +27,7 @@ from .journal import Journal
 from .kinematics import Follower, IKSolution, RobotModel
 from .mujoco_order import MujocoOrder
 from .padded import PaddedRobots
-from .parameters import JointParameters, LinkParameters
+from .parameters import JointParameters, LinkParameters, Surroundings
 from .radio import Message, Radio
 from .remote import RemoteSimulation, connect
 from .robots import Robots
@@ -46,7 +46,7 @@ __all__ = [
     "Diagnostic", "Follower", "IKSolution", "JointParameters", "JointTrajectory", "Journal", "JournalError",
     "LinkParameters", "Message", "ModelBuilder", "MujocoOrder", "ObservationSpec", "OrderError", "PaddedRobots",
     "Parameter", "Radio", "RemoteSimulation", "RobossError", "RobotCameras", "RobotModel", "Robots", "Save",
-    "SaveError", "Sensor", "SensorDescription", "SensorError", "Simulation", "StateError", "UnknownNameError",
-    "ValueDescription", "View", "ViewError", "World", "WorldBuilder", "WorldError", "WorldWarning", "connect", "ctraj",
-    "example", "jtraj", "load",
+    "SaveError", "Sensor", "SensorDescription", "SensorError", "Simulation", "StateError", "Surroundings",
+    "UnknownNameError", "ValueDescription", "View", "ViewError", "World", "WorldBuilder", "WorldError", "WorldWarning",
+    "connect", "ctraj", "example", "jtraj", "load",
 ]

@@ -1,4 +1,4 @@
-"""Numbers of joints and links of some robots that may differ from robot to robot and change."""
+"""Numbers of some robots that may differ from robot to robot and change: of joints and links, gravity and wind."""
 from __future__ import annotations
 
 from typing import TYPE_CHECKING, Iterable, Iterator, Union
@@ -18,7 +18,7 @@ Names = Union[str, Iterable[str], None]
 
 
 class _Parameters:
-    """The common part of JointParameters and LinkParameters. `_part`: "joints" or "links"."""
+    """The common part of JointParameters, LinkParameters and Surroundings. `_part`: "joints", "links", "surroundings"."""
     _part: str
     _names: list[str]
 
@@ -241,3 +241,77 @@ class LinkParameters(_Parameters):
 
     def _put(self, columns: list[int], numbers: list[int], values: Floats) -> None:
         self._robots._core.set_link_parameters(columns, numbers, values)
+
+
+class Surroundings(_Parameters):
+    """Gravity and steady wind at some robots. Robots.surroundings makes it; N is the number of robots.
+
+    As JointParameters: a robot has those of the world's file until it is given own ones, which are part of its state;
+    what is assigned is in effect at once (of a RemoteSimulation from the next tick on); if one robot refuses it
+    (OrderError: not finite, or more than 1000 in a component), nothing is changed. Robots that are added later, and
+    all after a reset of the simulation, have those of the file. Columns are x, y and z of the world:
+
+    | name | unit | |
+    |---|---|---|
+    | `gravity` | m/s^2 | in the dynamics, and in what IMUs and the multicopter's controller measure |
+    | `wind` | m/s | on links with `<enable_wind>`, wings, rotors, sensors of air speed; the aim of Gazebo's WindEffects |
+
+    Arrays are (N, 3), read-only copies: assign them as a whole, or one row for all robots. Of a Batch they are
+    (simulations, N, 3).
+
+    >>> sim = roboss.Simulation(roboss.example("crossroads.sdf"))
+    >>> cars = sim.robots("car_*")
+    >>> cars.surroundings["gravity"] = [0, 0, -1.62]                    # on the moon
+    >>> cars[0].surroundings.set("z", gravity=-3.71)                    # one of them on Mars
+    >>> cars[:2].surroundings["gravity"]
+    array([[ 0.  ,  0.  , -3.71],
+           [ 0.  ,  0.  , -1.62]])
+    """
+    _part = "surroundings"
+    _names: list[str] = [row[0] for row in _core.surroundings]
+    components = ("x", "y", "z")  #: names of the columns
+
+    def units(self, name: str) -> tuple[str, ...]:
+        """Unit of gravity or wind in each column."""
+        return (_core.surroundings[self._number(name)][1],) * len(self.components)
+
+    def set(self, components: Names = None, /, **values: ArrayLike) -> None:
+        """Sets gravity, wind or both, or some components: of each robot all, or, if one robot refuses, of none.
+
+        Args:
+            components: some of "x", "y" and "z", the columns of the arrays; None: all.
+            values: by the name, (N, components); one row for all robots; of named components also one number.
+
+        Raises:
+            ArgumentError: one number for a whole vector (code "bad-shape").
+        """
+        self._set(components, values)
+
+    def reset(self, components: Names = None) -> None:
+        """Gives gravity and wind, or some components of both, back to the file's. Robots that have no own numbers left
+        are as if they never had any: their hashes are the same.
+
+        Args:
+            components: some of "x", "y" and "z"; None: all.
+        """
+        self._robots._core.reset_surroundings(self._columns(components))
+
+    def _set(self, parts: Names, values: dict[str, ArrayLike]) -> None:
+        for name, value in values.items():
+            if parts is None and np.ndim(value) == 0:
+                raise ArgumentError(f"{name}: one number", "give x, y and z, or name the component", "bad-shape")
+        super()._set(parts, values)
+
+    def _width(self) -> int:
+        return len(self.components)
+
+    def _columns(self, parts: Names) -> list[int]:
+        if parts is None:
+            return list(range(self._width()))
+        return [index_of("component", name, list(self.components)) for name in names_of("components", parts)]
+
+    def _fill_in(self, number: int, of_file: bool, out: Floats) -> None:
+        self._robots._core.surroundings(number, of_file, out)
+
+    def _put(self, columns: list[int], numbers: list[int], values: Floats) -> None:
+        self._robots._core.set_surroundings(columns, numbers, values)

@@ -11,7 +11,7 @@ from .camera import RobotCameras
 from .errors import ArgumentError, StateError, UnknownNameError
 from .mujoco_order import MujocoOrder
 from .names import filled, index_of, names_of, numbers, real, text, unknown, whole
-from .parameters import JointParameters, LinkParameters
+from .parameters import JointParameters, LinkParameters, Surroundings
 from .radio import Radio
 from .sensors import Sensor
 from .specs import ActionSpec, ObservationSpec, action_spec, observation_spec
@@ -223,7 +223,7 @@ class Robots:
     @property
     def energy(self) -> Floats:
         """Kinetic and potential energy of the robots, (N, 2): J. The potential energy is that of the links in the
-        world's gravity, zero at the world's origin. Rotor inertias and springs are not in it.
+        robot's gravity, zero at the world's origin. Rotor inertias and springs are not in it.
 
         >>> sim = roboss.Simulation(roboss.example("crossroads.sdf"))
         >>> sim.robots("car_2").twist = [2, 0, 0, 0, 0, 0]
@@ -313,6 +313,15 @@ class Robots:
         >>> cars.link_parameters["friction"] = 0.3                          # slippery, all links that touch
         """
         return LinkParameters(self)
+
+    @property
+    def surroundings(self) -> Surroundings:
+        """Gravity and steady wind that they feel, another in each robot if you like. See Surroundings.
+
+        >>> sim = roboss.Simulation(roboss.example("crossroads.sdf"))
+        >>> sim.robots("*").surroundings["gravity"] = [0, 0, -1.62]         # m/s^2: all robots are on the moon
+        """
+        return Surroundings(self)
 
     def set_joint_targets(self, targets: ArrayLike, joints: Union[str, Iterable[str], None] = None, *,
                           mode: str = "velocity", max_effort: Optional[float] = None,

@@ -164,7 +164,7 @@ void reset_parameters(Robots& robots, const std::vector<std::size_t>& columns) {
     finish_change(robots, done);
 }
 
-/// Methods for the numbers of joints and links.
+/// Methods for the numbers of joints and links, gravity and wind.
 void bind_parameters(nb::class_<Robots>& robots) {
     using Joint = JointParameter;
     using Link = LinkParameter;
@@ -181,8 +181,13 @@ void bind_parameters(nb::class_<Robots>& robots) {
              nb::arg("parameter"), nb::arg("of_file"), nb::arg("out"))
         .def("set_link_parameters", &set_parameters<Link, &RobotSet::set_link_parameters>, nb::arg("columns"),
              nb::arg("parameters"), nb::arg("values"))
-        .def("reset_link_parameters", &reset_parameters<&RobotSet::reset_link_parameters>,
-             nb::arg("columns"));
+        .def("reset_link_parameters", &reset_parameters<&RobotSet::reset_link_parameters>, nb::arg("columns"))
+        .def("surroundings",
+             &fill_parameters<Surrounding, &RobotSet::surroundings, &RobotSet::file_surroundings>,
+             nb::arg("parameter"), nb::arg("of_file"), nb::arg("out"))
+        .def("set_surroundings", &set_parameters<Surrounding, &RobotSet::set_surroundings>,
+             nb::arg("columns"), nb::arg("parameters"), nb::arg("values"))
+        .def("reset_surroundings", &reset_parameters<&RobotSet::reset_surroundings>, nb::arg("columns"));
 }
 
 Robots make_robots(Simulations simulations, const std::vector<std::uint32_t>& ids) {
@@ -235,6 +240,9 @@ void bind_robots(nb::module_& module) {
     std::vector<std::pair<std::string, std::string>> of_links;
     for (const LinkParameterInfo& row : link_parameters()) of_links.emplace_back(row.name, row.unit);
     module.attr("link_parameters") = of_links;  // name, unit
+    std::vector<std::pair<std::string, std::string>> of_surroundings;
+    for (const SurroundingInfo& row : surroundings()) of_surroundings.emplace_back(row.name, row.unit);
+    module.attr("surroundings") = of_surroundings;  // name, unit
     module.def("robots", &make_robots, nb::arg("simulations"), nb::arg("ids"));
 }
 

@@ -158,6 +158,14 @@ std::optional<double> Client::link_parameter(const RobotRef& robot, const LinkRe
     return link_value(model().type_of(id), state(id), this->link(id, link), parameter);
 }
 
+Vec3 Client::gravity(const RobotRef& robot) const {
+    return surrounding_of(model(), state(this->robot(robot)), Surrounding::kGravity);
+}
+
+Vec3 Client::wind(const RobotRef& robot) const {
+    return surrounding_of(model(), state(this->robot(robot)), Surrounding::kWind);
+}
+
 OrderResult Client::set_pose(const RobotRef& robot, const Pose& X_WR) {
     return order(id_for_order(robot), SetPose{X_WR});
 }
@@ -221,6 +229,18 @@ OrderResult Client::set_link_parameters(const RobotRef& robot, const LinkRef& li
 OrderResult Client::reset_link_parameters(const RobotRef& robot, const LinkRef& link) {
     const RobotId id = id_for_order(robot);
     return order(id, SetLinkParameters{link_for_order(id, link), true, {}});
+}
+
+OrderResult Client::set_gravity(const RobotRef& robot, const Vec3& gravity) {
+    return order(id_for_order(robot), SetSurroundings{false, {gravity, std::nullopt}});
+}
+
+OrderResult Client::set_wind(const RobotRef& robot, const Vec3& wind) {
+    return order(id_for_order(robot), SetSurroundings{false, {std::nullopt, wind}});
+}
+
+OrderResult Client::reset_surroundings(const RobotRef& robot) {
+    return order(id_for_order(robot), SetSurroundings{true, {}});
 }
 
 OrderResult Client::command(const RobotRef& robot, const std::string& name, std::vector<double> values) {

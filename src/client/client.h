@@ -65,6 +65,10 @@ class Client : private SensorSources {
     std::optional<double> link_parameter(const RobotRef& robot, const LinkRef& link,
                                          LinkParameter parameter) const;
 
+    /// Gravity, m/s^2, and steady wind, m/s, that the robot feels: its own, or the world's; world axes.
+    Vec3 gravity(const RobotRef& robot) const;
+    Vec3 wind(const RobotRef& robot) const;
+
     // --- ids of names, for programs that look them up once. Each throws if there is no such name or id.
     RobotId robot(const RobotRef& robot) const;          ///< id of a robot
     const RobotType& type(const RobotRef& robot) const;  ///< its links, joints, sensors and commands
@@ -119,6 +123,12 @@ class Client : private SensorSources {
                                     std::vector<LinkParameterValue> values);
     /// All numbers of the link are those of its type again.
     OrderResult reset_link_parameters(const RobotRef& robot, const LinkRef& link);
+    /// Gives the robot own gravity, m/s^2, or an own steady wind, m/s, in place of the world's; world axes,
+    /// at most 1000 in each.
+    OrderResult set_gravity(const RobotRef& robot, const Vec3& gravity);
+    OrderResult set_wind(const RobotRef& robot, const Vec3& wind);
+    /// Gravity and wind are those of the world again.
+    OrderResult reset_surroundings(const RobotRef& robot);
     /// Latches a command of the robot's on-board controllers, e.g. "cmd_vel"; `roboss check` lists names,
     /// values and units. Of a list: row by row.
     OrderResult command(const RobotRef& robot, const std::string& name, std::vector<double> values);

@@ -38,7 +38,7 @@ class ControlProgram {
 };
 
 /// Version of this interface; the loader refuses a library built against another one.
-inline constexpr int kControlProgramAbi = 15;
+inline constexpr int kControlProgramAbi = 16;
 
 }  // namespace roboss
 

@@ -81,6 +81,9 @@ void add_own(const OwnNumbers& own, Json& out) {
         json["links"] = grouped(own.links, [](const OwnLinkNumber& one) {
             return Json::object({{"link", one.link.value}});
         });
+    for (const SurroundingInfo& row : surroundings())
+        if (const std::optional<Vec3>& value = own.around.*row.own)
+            json[row.name] = {value->x, value->y, value->z};
     out["own"] = std::move(json);
 }
 

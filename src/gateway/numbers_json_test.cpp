@@ -154,5 +154,14 @@ TEST_F(NumbersJsonTest, OfWhatTheRobotLacksNothingIsTold) {
     EXPECT_TRUE(numbers({kCar, {}, 0, LinkId(99u)}).is_null());
 }
 
+TEST_F(NumbersJsonTest, OwnGravityAndWindStandBesideThoseOfJointsAndLinks) {
+    give(SetSurroundings{false, {Vec3{0, 0, -1.62}, std::nullopt}});
+    EXPECT_EQ(robot(kCar)["own"], Json({{"gravity", {0, 0, -1.62}}}));
+    give(SetSurroundings{true, {std::nullopt, Vec3{3, 0, 1}}});
+    EXPECT_EQ(robot(kCar)["own"], Json({{"wind", {3, 0, 1}}}));
+    give(SetSurroundings{true, {}});
+    EXPECT_FALSE(robot(kCar).contains("own"));
+}
+
 }  // namespace
 }  // namespace roboss

@@ -73,6 +73,9 @@ TEST_F(PageOrderTest, NumbersOfJointsAndLinksAreCheckedAsForEveryClient) {
     EXPECT_EQ(code(SetLinkParameters{tyre, false, {{LinkParameter::kMass, 0.75}}}), "");
     EXPECT_EQ(code(SetLinkParameters{tyre, false, {{LinkParameter::kInertiaXx, 1}}}), "half-inertia");
     EXPECT_EQ(code(SetLinkParameters{LinkId(9u), true, {}}), "no-link");
+    EXPECT_EQ(code(SetSurroundings{false, {Vec3{0, 0, -1.62}, std::nullopt}}), "");
+    EXPECT_EQ(code(SetSurroundings{false, {std::nullopt, Vec3{2000, 0, 0}}}), "beyond-limit");
+    EXPECT_EQ(code(SetSurroundings{}), "no-parameter");
 }
 
 }  // namespace

@@ -116,6 +116,14 @@ SetLinkParameters link_parameters_of(PageFields& fields) {
     return order;
 }
 
+SetSurroundings surroundings_of(PageFields& fields) {
+    SetSurroundings order;
+    order.reset = flag_of(fields, "reset");
+    for (const SurroundingInfo& row : surroundings())
+        if (fields.find(row.name) != nullptr) order.values.*row.own = fields.vec3(row.name);
+    return order;
+}
+
 PageCommand command_of(PageFields& fields) {
     PageCommand command;
     command.name = fields.text("name");
@@ -155,6 +163,8 @@ PageOrder order_of(PageFields& fields) {
         order.action = joint_parameters_of(fields);
     } else if (action == "link_parameters") {
         order.action = link_parameters_of(fields);
+    } else if (action == "surroundings") {
+        order.action = surroundings_of(fields);
     } else if (action == "command") {
         order.action = command_of(fields);
     } else if (action == "attach") {
@@ -164,7 +174,7 @@ PageOrder order_of(PageFields& fields) {
     } else {
         fields.fail("action",
                     "pose, velocity, wrench, pull, joint, joint_parameters, link_parameters, "
-                    "command, attach or detach");
+                    "surroundings, command, attach or detach");
     }
     return order;
 }

@@ -38,7 +38,7 @@ struct PageCommand {
 struct PageOrder {
     RobotId robot;
     std::variant<SetPose, SetVelocity, PageWrench, PagePull, SetJoint, SetJointParameters, SetLinkParameters,
-                 PageCommand, Attach, Detach>
+                 SetSurroundings, PageCommand, Attach, Detach>
         action;
 };
 /// A page sees all numbers of this: one axis of a joint, or a link.

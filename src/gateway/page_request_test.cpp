@@ -84,6 +84,19 @@ TEST(PageRequest, UnderstandsNumbersOfJointsAndLinks) {
         (SetLinkParameters{LinkId(2u), true, {{LinkParameter::kFriction, 0}, {LinkParameter::kMass, 3}}}));
 }
 
+TEST(PageRequest, UnderstandsOrdersForSurroundings) {
+    const auto order = [](const std::string& rest) {
+        Result<PageRequest> request =
+            parse_page_request(R"({"type":"order","id":6,"robot":7,"action":"surroundings")" + rest + "}");
+        EXPECT_TRUE(request.ok()) << request.error().text();
+        return std::get<SetSurroundings>(std::get<PageOrder>(request.value().what).action);
+    };
+    EXPECT_EQ(order(R"(,"gravity":[0,0,-1.62])"),
+              (SetSurroundings{false, {Vec3{0, 0, -1.62}, std::nullopt}}));
+    EXPECT_EQ(order(R"(,"wind":[3,0,1],"reset":true)"),
+              (SetSurroundings{true, {std::nullopt, Vec3{3, 0, 1}}}));
+}
+
 TEST(PageRequest, UnderstandsWhoseNumbersAPageSees) {
     const auto wish = [](const std::string& numbers) {
         const auto request = parse_page_request(R"({"type":"watch","robots":[7],"numbers":)" + numbers + "}");
@@ -189,6 +202,9 @@ TEST(PageRequest, RefusesWhatIsWrongByName) {
          "\"values\""},
         {R"({"type":"order","robot":1,"action":"link_parameters","link":0,"values":{"damping":1}})",
          "\"values\""},
+        {R"({"type":"order","robot":1,"action":"surroundings","gravity":-9.8})", "\"gravity\""},
+        {R"({"type":"order","robot":1,"action":"surroundings","wind":[1,2]})", "\"wind\""},
+        {R"({"type":"order","robot":1,"action":"surroundings","reset":1})", "\"reset\""},
         {R"({"type":"watch","numbers":7})", "\"numbers\""},
         {R"({"type":"watch","numbers":{"robot":1}})", "\"numbers\""},
         {R"({"type":"watch","numbers":{"robot":1,"link":-1}})", "\"numbers\""},

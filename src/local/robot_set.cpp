@@ -53,7 +53,7 @@ void add_energy(const Model& model, const RobotType& type, const RobotState& sta
     const Vec3 p_LC_W = R_WB * (link.p_BC - link.X_BL.p);
     const Vec3 v_C = twist.linear + cross(twist.angular, p_LC_W), w_B = transpose(R_WB) * twist.angular;
     energy[0] += 0.5 * (link.mass * norm_squared(v_C) + dot(w_B, link.inertia_C * w_B));
-    if (link.gravity) energy[1] -= link.mass * dot(model.gravity, X_WL.p + p_LC_W);
+    if (link.gravity) energy[1] -= link.mass * dot(gravity_of(model, type), X_WL.p + p_LC_W);
 }
 
 /// Limits are ordered together: of an order with one, the other as it is.
@@ -164,6 +164,15 @@ void RobotSet::file_link_parameters(LinkParameter parameter, std::span<double> o
     });
 }
 
+void RobotSet::surroundings(const RunAccess& run, Surrounding which, std::span<double> out) const {
+    for (std::size_t i = 0; i < size(); ++i)
+        put_row(surrounding_of(*model_, run.state(robots_[i]), which), row(out, i, 3));
+}
+
+void RobotSet::file_surroundings(Surrounding which, std::span<double> out) const {
+    for (std::size_t i = 0; i < size(); ++i) put_row(surrounding_of(*model_, which), row(out, i, 3));
+}
+
 void RobotSet::energies(const RunAccess& run, std::span<double> out) const {
     for (std::size_t i = 0; i < size(); ++i) {
         const RobotType& type = type_of(model_->type_of(robots_[i]), run.state(robots_[i]));
@@ -178,7 +187,8 @@ void RobotSet::touching(RunAccess& run, std::span<bool> out) const {
     ROBOSS_CHECK(out.size() == size(), std::to_string(out.size()) + " flags");
     std::vector<char> touched(model_->robots.size());
     for (const ContactReport& contact : run.contacts()) {
-        if (carries(contact, model_->gravity)) continue;
+        const RobotId a = contact.robot_a;
+        if (carries(contact, gravity_of(*model_, type_of(model_->type_of(a), run.state(a))))) continue;
         touched[contact.robot_a.index()] = 1;
         if (contact.robot_b.valid()) touched[contact.robot_b.index()] = 1;
     }
@@ -290,6 +300,36 @@ Result<> RobotSet::set_link_parameters(RunAccess& run, std::span<const std::size
 Result<> RobotSet::reset_link_parameters(RunAccess& run, std::span<const std::size_t> links) const {
     return change(run, links.size(), [&](std::size_t i, std::size_t k) {
         return SetLinkParameters{LinkId(part_of(shared_.links[links[k]], i)), true, {}};
+    });
+}
+
+Result<> RobotSet::set_surroundings(RunAccess& run, std::span<const std::size_t> components,
+                                    std::span<const Surrounding> which,
+                                    std::span<const double> values) const {
+    const std::size_t width = which.size() * components.size();
+    ROBOSS_CHECK(values.size() == size() * width, std::to_string(values.size()) + " numbers");
+    return change(run, 1, [&](std::size_t i, std::size_t) {
+        SetSurroundings own;
+        for (std::size_t p = 0; p < which.size(); ++p) {
+            Vec3 value = surrounding_of(*model_, run.state(robots_[i]), which[p]);
+            for (std::size_t k = 0; k < components.size(); ++k)
+                value[components[k]] = values[i * width + p * components.size() + k];
+            own.values.*info_of(which[p]).own = value;
+        }
+        return own;
+    });
+}
+
+Result<> RobotSet::reset_surroundings(RunAccess& run, std::span<const std::size_t> components) const {
+    return change(run, 1, [&](std::size_t i, std::size_t) {
+        SetSurroundings own;
+        if (components.size() == 3) return own.reset = true, own;
+        for (const Surrounding which : {Surrounding::kGravity, Surrounding::kWind}) {
+            Vec3 value = surrounding_of(*model_, run.state(robots_[i]), which);
+            for (const std::size_t k : components) value[k] = surrounding_of(*model_, which)[k];
+            own.values.*info_of(which).own = value;
+        }
+        return own;
     });
 }
 

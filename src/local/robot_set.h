@@ -63,7 +63,11 @@ class RobotSet {
     void link_parameters(const RunAccess& run, LinkParameter parameter, std::span<double> out) const;
     /// The same as the file has it.
     void file_link_parameters(LinkParameter parameter, std::span<double> out) const;
-    /// Kinetic energy of the links, and their potential energy in the world's gravity (zero at the world's
+    /// Gravity, m/s^2, or steady wind, m/s, of each robot, size() x 3, world axes: its own, or the Model's.
+    void surroundings(const RunAccess& run, Surrounding which, std::span<double> out) const;
+    /// The same as the file has it.
+    void file_surroundings(Surrounding which, std::span<double> out) const;
+    /// Kinetic energy of the links, and their potential energy in the robot's gravity (zero at the world's
     /// origin), size() x kEnergyColumns: J. Rotor inertias and springs are not in it.
     void energies(const RunAccess& run, std::span<double> out) const;
     /// Whether each robot presses against another robot, or against scenery that does not carry it (the
@@ -95,6 +99,13 @@ class RobotSet {
                                  std::span<const double> values) const;
     /// All numbers of these links are those of the robots' types again.
     Result<> reset_link_parameters(RunAccess& run, std::span<const std::size_t> links) const;
+
+    /// Own gravity or wind of each robot, size() x which.size() x components.size(), as surroundings() gives
+    /// them. Components (0 x, 1 y, 2 z) that are not listed stay.
+    Result<> set_surroundings(RunAccess& run, std::span<const std::size_t> components,
+                              std::span<const Surrounding> which, std::span<const double> values) const;
+    /// These components of gravity and wind are those of the Model again.
+    Result<> reset_surroundings(RunAccess& run, std::span<const std::size_t> components) const;
 
     // What follows are orders: they take effect at the beginning of the next tick.
 

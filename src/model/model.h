@@ -28,6 +28,7 @@
 #include "model/joint_elimination.h"
 #include "model/reach_sphere.h"
 #include "model/shape_groups.h"
+#include "model/surroundings.h"
 #include "world/world.h"
 
 namespace roboss {
@@ -310,6 +311,8 @@ struct RobotType {
     double mass = 0;           ///< kg, of all bodies
     /// m, base frame: holds the scenery whose surfaces its controllers move; empty: there is none.
     Aabb scenery;
+    /// Of a robot with own ones (own_numbers.h): what it feels in place of the Model's. Empty in a Model.
+    OwnSurroundings around;
     std::uint64_t hash = 0;       ///< of the content
     std::uint64_t step_hash = 0;  ///< of what a step reads: no names, topics and sensors; computed by seal()
     TypeId
@@ -422,6 +425,15 @@ struct Model {
     /// The robot with this name; nullopt: there is none.
     std::optional<RobotId> find_robot(const std::string& wanted) const;
 };
+
+/// Gravity at a robot of this type, m/s^2, world axes.
+[[gnu::always_inline]] inline const Vec3& gravity_of(const Model& model, const RobotType& type) {
+    return type.around.gravity ? *type.around.gravity : model.gravity;
+}
+/// The steady wind there, m/s, world axes; where the type has a wind_index, the one that it approaches.
+inline const Vec3& wind_of(const Model& model, const RobotType& type) {
+    return type.around.wind ? *type.around.wind : model.wind;
+}
 
 /// What a caller sets instead of the world file.
 struct CompileOptions {

@@ -216,6 +216,9 @@ struct Check {
     Result<> operator()(const SetLinkParameters& a) const {
         return check_link_parameters(model.robots[order.robot.index()].name, type, a);
     }
+    Result<> operator()(const SetSurroundings& a) const {
+        return check_surroundings(model.robots[order.robot.index()].name, a);
+    }
     Result<> operator()(const Transmit& a) const {
         const std::string what = "message of " + called(model, order);
         if (a.radio >= type.radios.size())
@@ -371,6 +374,7 @@ struct Apply {
     }
     void operator()(const SetJointParameters& a) const { apply_joint_parameters(type, a, state); }
     void operator()(const SetLinkParameters& a) const { apply_link_parameters(type, a, state); }
+    void operator()(const SetSurroundings& a) const { apply_surroundings(model, type, a, state); }
     void operator()(const Detach& a) const {
         for (Bond& bond : state.bonds)
             if (!a.other.valid() || bond.other == a.other.value) bond.phase = BondPhase::kLoosed;

@@ -11,6 +11,7 @@
 #include "model/joint_parameters.h"
 #include "model/link_parameters.h"
 #include "model/robot_state.h"
+#include "model/surroundings.h"
 
 namespace roboss {
 
@@ -118,7 +119,7 @@ struct Transmit {
 
 /// What an order does.
 using Action = std::variant<SetPose, SetVelocity, ApplyWrench, SetJoint, Command, Attach, Detach, Pull,
-                            SetJointState, Transmit, SetJointParameters, SetLinkParameters>;
+                            SetJointState, Transmit, SetJointParameters, SetLinkParameters, SetSurroundings>;
 
 /// An action on one robot at one tick.
 struct Order {
@@ -141,6 +142,8 @@ struct OrderLimits {
     double force = 1e9;      ///< N: on a link; N or N m: target of a joint's effort
     double torque = 1e9;     ///< N m, on a link
     double rate = 1e3;       ///< rad/s, of a pull
+    double gravity = 1e3;    ///< m/s^2, each component
+    double wind = 1e3;       ///< m/s, each component
 };
 /// The limits in force.
 inline constexpr OrderLimits kOrderLimits;

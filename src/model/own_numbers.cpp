@@ -26,6 +26,7 @@ RobotType with_numbers(const RobotType& type, const OwnNumbers& own) {
     RobotType made = type;
     const bool rotors = put_numbers(own.joints, made), masses = put_numbers(own.links, made);
     if (rotors || masses) renew_masses(made);
+    made.around = own.around;
     return made;
 }
 

@@ -1,5 +1,5 @@
-// The numbers of a robot that differ from those of its type, and the type that it has with them. Decision
-// 0050.
+// The numbers of a robot that differ from those of its type and of the Model, and the type that it has with
+// them. Decisions 0050 and 0051.
 #pragma once
 
 #include <memory>
@@ -7,15 +7,17 @@
 
 #include "model/joint_parameters.h"
 #include "model/link_parameters.h"
+#include "model/surroundings.h"
 
 namespace roboss {
 
-/// All numbers that differ from those of the robot's type, and no others.
+/// All numbers that differ from those of the robot's type or of the Model, and no others.
 struct OwnNumbers {
     std::vector<OwnJointNumber> joints;  ///< by joint, axis and parameter
     std::vector<OwnLinkNumber> links;    ///< by link and parameter
+    OwnSurroundings around{};            ///< gravity and wind
     /// True if there are none.
-    bool empty() const { return joints.empty() && links.empty(); }
+    bool empty() const { return joints.empty() && links.empty() && around.empty(); }
     /// Compares all members.
     friend bool operator==(const OwnNumbers&, const OwnNumbers&) = default;
 };

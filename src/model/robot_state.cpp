@@ -240,9 +240,10 @@ void fields(A& a, Of<A, RadioState>& radio) {
     a.bytes(bytes);
 }
 
+/// All but the surroundings, which are another part of the state.
 template <class A>
 void fields(A& a, Of<A, OwnNumbers>& own) {
-    auto& [joints, links] = own;
+    auto& [joints, links, around] = own;
     a.length(joints);
     for (auto& [joint, axis, number] : joints) {
         auto& [parameter, value] = number;
@@ -255,16 +256,32 @@ void fields(A& a, Of<A, OwnNumbers>& own) {
     }
 }
 
-/// What follows behind the rest of a state: what on-board controllers keep, pulls, radios, own numbers.
+template <class A>
+void fields(A& a, Of<A, std::optional<Vec3>>& v) {
+    bool given = v.has_value();
+    a.flag(given);
+    if constexpr (A::kReading)
+        if (given) v.emplace();
+    if (v) fields(a, *v);
+}
+
+template <class A>
+void fields(A& a, Of<A, OwnSurroundings>& around) {
+    auto& [gravity, wind] = around;
+    fields(a, gravity), fields(a, wind);
+}
+
+/// What follows behind the rest of a state: what on-board controllers keep, pulls, radios, own numbers of
+/// joints and links, own surroundings.
 struct Parts {
-    bool acts = false, pulled = false, talks = false, differs = false;
+    bool acts = false, pulled = false, talks = false, differs = false, surrounded = false;
 };
 
 /// Who is awake has no bound.
 template <class A>
 void fields(A& a, Of<A, Rest>& rest, Parts& parts) {
     auto& [still_ticks, asleep, neighbours, bound] = rest;
-    a.flagged(still_ticks, {asleep, parts.acts, parts.pulled, parts.talks, parts.differs});
+    a.flagged(still_ticks, {asleep, parts.acts, parts.pulled, parts.talks, parts.differs, parts.surrounded});
     a.length(neighbours);
     for (auto& id : neighbours) a.id(id);
     auto& [min, max] = bound;
@@ -276,7 +293,7 @@ void fields(A& a, Of<A, RobotState>& state) {
     auto& [q, v, motors, wrenches, contacts, rest, onboard, lists, surfaces, bonds, pulls, radios, own,
            own_type] = state;
     Parts parts{!onboard.empty() || !lists.empty() || !surfaces.empty() || !bonds.empty(), !pulls.empty(),
-                !radios.empty(), !own.empty()};
+                !radios.empty(), !own.joints.empty() || !own.links.empty(), !own.around.empty()};
     a.length(q), a.length(v), a.length(motors), a.length(wrenches), a.length(contacts);
     for (auto& x : q) a.number(x);
     for (auto& x : v) a.number(x);
@@ -291,6 +308,9 @@ void fields(A& a, Of<A, RobotState>& state) {
     if (parts.differs) fields(a, own);
     if constexpr (A::kReading)
         if ((parts.talks && radios.empty()) || (parts.differs && own.empty())) a.fail();
+    if (parts.surrounded) fields(a, own.around);
+    if constexpr (A::kReading)
+        if (parts.surrounded && own.around.empty()) a.fail();
     if (!parts.acts) return;
     a.length(onboard), a.length(lists), a.length(surfaces), a.length(bonds);
     for (auto& x : onboard) a.number(x);
@@ -335,8 +355,8 @@ const char* inconsistency_of(const RobotState& state, const RobotType& type, std
         state.lists.size() != static_cast<std::size_t>(type.list_count))
         return "has not as many commands or as much memory of on-board controllers as that";
     if (state.radios.size() != type.radios.size()) return "has not as many radios as that";
-    if (!may_own(type, state.own.joints) || !may_own(type, state.own.links))
-        return "has numbers of joints or links that no order gives";
+    if (!may_own(type, state.own.joints) || !may_own(type, state.own.links) || !may_own(state.own.around))
+        return "has numbers of joints or links, gravity or wind that no order gives";
     const auto radio_fits = [&](const RadioState& r) { return is_consistent(r, robots); };
     if (!std::all_of(state.radios.begin(), state.radios.end(), radio_fits))
         return "has a radio whose transmissions do not fit each other";

@@ -168,7 +168,7 @@ struct RobotState {
     std::vector<Bond> bonds;         ///< attachments that this robot holds, in the order in which they came
     std::vector<TimedPull> pulls;    ///< in force, at most one on a link
     std::vector<RadioState> radios;  ///< by RobotType::radios
-    OwnNumbers own;                  ///< numbers of joints and links that differ from those of its type
+    OwnNumbers own;                  ///< numbers that differ from those of its type and of the Model
     OwnType own_type;                ///< with `own`; a step has it from type_of()
     /// Compares all members.
     friend bool operator==(const RobotState&, const RobotState&) = default;

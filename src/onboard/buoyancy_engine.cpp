@@ -16,7 +16,7 @@ void run(const BuoyancyEngineSpec& spec, OnboardContext& c) {
     const Vec3 place = c.pose(c.link(0)).p;
     const double density = place.z < spec.surface ? spec.density : 0.0;
     const double mass = density * volume - spec.density * spec.neutral_volume;
-    if (mass != 0) c.push_at(c.link(0), c.model().gravity * -mass, place);
+    if (mass != 0) c.push_at(c.link(0), c.gravity() * -mass, place);
 }
 
 }  // namespace roboss

@@ -114,7 +114,7 @@ bool control(const MulticopterControlSpec& spec, const WholeMass& whole, Onboard
     const Vec3 w = transpose_times(R, twist.angular) +
                    noise(spec.turn_rate_noise_mean, spec.turn_rate_noise_deviation, 8, c);
     Vec3 a = by_component(v - R * velocity, spec.velocity_gain) * (1 / whole.mass);
-    a = limited(a, spec.max_acceleration) + c.model().gravity;
+    a = limited(a, spec.max_acceleration) + c.gravity();
     const Vec3 b3 = unit(-a);
     const Mat3 Rd = attitude_to(b3, R);
     const Mat3 E = transpose(Rd) * R, skew = (E - transpose(E)) * 0.5;

@@ -120,7 +120,7 @@ LinkId OnboardContext::parent_of(std::size_t joint) const {
 }
 
 Vec3 OnboardContext::wind() const {
-    if (type_.wind_index < 0) return model_.wind;
+    if (type_.wind_index < 0) return wind_of(model_, type_);
     const auto at = static_cast<std::size_t>(type_.wind_index);
     return {state_.onboard[at], state_.onboard[at + 1], state_.onboard[at + 2]};
 }

@@ -120,6 +120,8 @@ class OnboardContext {
     void move_base(const Vec3& angular, const Vec3& linear);
 
     // --- air
+    /// Gravity at the robot, m/s^2, world axes.
+    Vec3 gravity() const { return gravity_of(model_, type_); }
     /// The wind of this tick, m/s, world axes.
     Vec3 wind() const;
 

@@ -23,7 +23,7 @@ void run(const WindEffectsSpec& spec, OnboardContext& c) {
     const auto noise = [&](double mean, double deviation, std::uint64_t k) {
         return deviation > 0 ? mean + deviation * random_gaussian(stream, k) : mean;
     };
-    Vec3 aim = c.model().wind;
+    Vec3 aim = wind_of(c.model(), c.type());
     if (c.is_commanded(0)) {
         const std::span<const double> given = c.command(0);
         aim = given[3] != 0 ? Vec3{given[0], given[1], given[2]} : Vec3{};

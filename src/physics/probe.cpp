@@ -40,7 +40,7 @@ Vec3 arm_to(const RobotWork& work, int body, const Vec3& p_BX) {
 Spatial demand_of(const Model& model, const RobotWork& work, const Link& link,
                   std::span<const Spatial> acceleration) {
     const Vec3 centre = arm_to(work, link.body, link.p_BC);
-    const Vec3 weight = link.gravity ? model.gravity * link.mass : Vec3{};
+    const Vec3 weight = link.gravity ? gravity_of(model, *work.type) * link.mass : Vec3{};
     Spatial taken = Spatial{cross(centre, weight), weight} * -1.0;
     if (link.body < 0) return taken;
     const BodyWork& body = work.bodies[static_cast<std::size_t>(link.body)];

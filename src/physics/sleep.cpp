@@ -79,8 +79,8 @@ bool will_touch(const Model& model, std::span<RobotWork> robots, std::uint32_t a
     finder.with_robot(model, robots, std::min(awake, sleeper), std::max(awake, sleeper), buffers.contacts);
     return std::any_of(buffers.contacts.begin(), buffers.contacts.end(), [&](const Contact& c) {
         const bool mover_is_a = static_cast<std::uint32_t>(c.robot_a) == awake;
-        const Vec3 v =
-            velocity_at(mover, mover_is_a ? c.body_a : c.body_b, c.p_W) + model.gravity * model.dt_s;
+        const Vec3 v = velocity_at(mover, mover_is_a ? c.body_a : c.body_b, c.p_W) +
+                       gravity_of(model, *mover.type) * model.dt_s;
         const double apart = dot(c.normal, v) * (mover_is_a ? 1.0 : -1.0);
         return c.gap + model.dt_s * apart < (moves ? kReach : 0.0);
     });

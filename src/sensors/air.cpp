@@ -24,7 +24,7 @@ double power(double base, double exponent) {
 
 /// The wind that blows at the robot, m/s, world axes.
 Vec3 wind_at(const SensorQuery& query) {
-    if (query.type().wind_index < 0) return query.model.wind;
+    if (query.type().wind_index < 0) return wind_of(query.model, type_of(query.type(), query.state));
     const auto at = static_cast<std::size_t>(query.type().wind_index);
     return {query.state.onboard[at], query.state.onboard[at + 1], query.state.onboard[at + 2]};
 }

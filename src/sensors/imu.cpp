@@ -38,7 +38,8 @@ Result<ImuReading> read(const ImuSpec& imu, const SensorQuery& query) {
     const Vec3 acceleration = (after.velocity - before.velocity) / query.model.dt_s;
     // The mean over the tick, in the axes of its middle: right to second order in the step while the sensor
     // turns.
-    const Vec3 force = rotate(conjugate(middle(before.q_WS, after.q_WS)), acceleration - query.model.gravity);
+    const Vec3 gravity = gravity_of(query.model, type_of(query.type(), query.state));
+    const Vec3 force = rotate(conjugate(middle(before.q_WS, after.q_WS)), acceleration - gravity);
     const Vec3 rate = rotate(conjugate(before.q_WS), before.angular);
 
     ImuReading reading;

@@ -64,7 +64,7 @@ Result<Mat3> reference_frame_of(const ImuSpec& imu, const SensorQuery& query) {
         const Vec3& rpy = imu.custom_rpy;
         return parent.value() * to_matrix(from_rpy(rpy.x, rpy.y, rpy.z));
     }
-    const Vec3 down = query.model.gravity;
+    const Vec3 down = gravity_of(query.model, type_of(query.type(), query.state));
     return upright(imu.localization == "GRAV_UP" ? -down : down, parent.value() * imu.gravity_x, query);
 }
 

@@ -70,8 +70,9 @@ bool describe(const Model& model, const States& a, const States& b, Divergence& 
 
 std::string describe(const Model& model, const Order& order) {
     static constexpr const char* kKinds[] = {
-        "set pose", "set velocity", "wrench",      "joint",   "command",          "attach",
-        "detach",   "pull",         "joint state", "message", "joint parameters", "link parameters"};
+        "set pose",         "set velocity",    "wrench",      "joint",       "command",
+        "attach",           "detach",          "pull",        "joint state", "message",
+        "joint parameters", "link parameters", "surroundings"};
     static_assert(std::size(kKinds) == std::variant_size_v<Action>);
     std::string text = std::string(kKinds[order.action.index()]) + " of robot '" +
                        model.robots[order.robot.index()].name + "'";
@@ -90,6 +91,11 @@ std::string describe(const Model& model, const Order& order) {
         for (const LinkParameterValue& one : own->values)
             text += std::string(", ") + info_of(one.parameter).name + " " + std::to_string(one.value);
     }
+    if (const auto* own = std::get_if<SetSurroundings>(&order.action))
+        for (const SurroundingInfo& row : surroundings())
+            if (const std::optional<Vec3>& value = own->values.*row.own)
+                text += std::string(", ") + row.name + " " + std::to_string(value->x) + " " +
+                        std::to_string(value->y) + " " + std::to_string(value->z);
     if (const auto* message = std::get_if<Transmit>(&order.action))
         text += ", of " + std::to_string(message->payload.size()) + " bytes";
     if (const auto* command = std::get_if<Command>(&order.action))

@@ -116,6 +116,12 @@ void compare_own_numbers(const RobotType& type, const OwnNumbers& a, const OwnNu
                      static_cast<std::uint64_t>(y.number.parameter));
         fields.number(name, x.number.value, y.number.value);
     }
+    for (const SurroundingInfo& row : surroundings()) {
+        const std::optional<Vec3>&x = a.around.*row.own, &y = b.around.*row.own;
+        const std::string name = std::string("own ") + row.name;
+        fields.count(name + ", or that it has some", x ? 1 : 0, y ? 1 : 0);
+        if (x && y) fields.vector(name, *x, *y);
+    }
 }
 
 void compare_pulls(const RobotState& a, const RobotState& b, Fields& fields) {

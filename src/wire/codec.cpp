@@ -165,6 +165,15 @@ template <class A> void field(A& a, Of<A, LinkParameterValue>& m) {
     if constexpr (A::kReading) if (static_cast<std::size_t>(parameter) >= kLinkParameters) a.fail("a parameter of a link is unknown");
 }
 template <class A> void field(A& a, Of<A, SetLinkParameters>& m) { auto& [link, reset, values] = m; fields(a, link, reset, values); }
+template <class A> void field(A& a, Of<A, OwnSurroundings>& m) {
+    auto& [gravity, wind] = m;
+    for (auto* value : {&gravity, &wind}) {
+        bool there = value->has_value();
+        field(a, there);
+        if (there) field(a, given(a, *value));
+    }
+}
+template <class A> void field(A& a, Of<A, SetSurroundings>& m) { auto& [reset, values] = m; fields(a, reset, values); }
 template <class A> void field(A& a, Of<A, Order>& m) { auto& [apply_at, client, sequence, robot, action] = m; fields(a, apply_at, client, sequence, robot, action); }
 template <class A> void field(A& a, Of<A, Hello>& m) { auto& [model_hash, threads, name] = m; fields(a, model_hash, threads, name); }
 template <class A> void field(A& a, Of<A, Welcome>& m) { auto& [simulator] = m; fields(a, simulator); }

@@ -14,7 +14,7 @@
 namespace roboss {
 
 /// Version of the encoding; a message of another version is refused by name.
-inline constexpr std::uint16_t kWireVersion = 20;
+inline constexpr std::uint16_t kWireVersion = 21;
 
 std::vector<std::uint8_t> encode(const Envelope& envelope);
 Result<Envelope> decode_envelope(std::span<const std::uint8_t> bytes);

@@ -30,6 +30,8 @@ std::vector<Order> some_orders() {
              JointId(1u), 1, true, {{JointParameter::kDamping, 0.5}, {JointParameter::kUpper, 2}}}},
         {17, ClientId(2u), 9, kOther,
          SetLinkParameters{LinkId(1u), true, {{LinkParameter::kMass, 0.5}, {LinkParameter::kFriction, 2}}}},
+        {17, ClientId(2u), 10, kOther, SetSurroundings{true, {Vec3{0, 0, -1.62}, Vec3{3, -1, 0.5}}}},
+        {17, ClientId(2u), 11, kOther, SetSurroundings{false, {std::nullopt, Vec3{1, 2, 3}}}},
         {18, ClientId(2u), 8, kOther, Transmit{3, kRobot, {1, 0, 255}}}};
 }
 

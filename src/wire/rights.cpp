@@ -67,8 +67,8 @@ const char* order_kind_name(OrderKind kind) {
 
 OrderKind kind_of(const Action& action) {
     using enum OrderKind;
-    static constexpr OrderKind kKinds[] = {kPose,  kVelocity, kForce, kActuators, kActuators, kBonds,
-                                           kBonds, kForce,    kPose,  kRadio,     kActuators, kActuators};
+    static constexpr OrderKind kKinds[] = {kPose,  kVelocity, kForce, kActuators, kActuators, kBonds, kBonds,
+                                           kForce, kPose,     kRadio, kActuators, kActuators, kForce};
     static_assert(std::size(kKinds) == std::variant_size_v<Action>);
     return kKinds[action.index()];
 }

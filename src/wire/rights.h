@@ -18,7 +18,7 @@ namespace roboss {
 enum class OrderKind : std::uint8_t {
     kPose,       ///< SetPose, SetJointState
     kVelocity,   ///< SetVelocity
-    kForce,      ///< ApplyWrench, Pull
+    kForce,      ///< ApplyWrench, Pull, SetSurroundings
     kActuators,  ///< SetJoint, Command, SetJointParameters, SetLinkParameters
     kBonds,      ///< Attach, Detach
     kRadio,      ///< Transmit

@@ -31,7 +31,8 @@ std::vector<std::pair<OrderKind, Action>> every_action(RobotId other) {
             {OrderKind::kBonds, Detach{other}},
             {OrderKind::kRadio, Transmit{}},
             {OrderKind::kActuators, SetJointParameters{}},
-            {OrderKind::kActuators, SetLinkParameters{}}};
+            {OrderKind::kActuators, SetLinkParameters{}},
+            {OrderKind::kForce, SetSurroundings{}}};
 }
 
 class ClientRights : public testing::Test {

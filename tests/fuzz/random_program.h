@@ -64,12 +64,21 @@ class RandomProgram : public ControlProgram {
         return client.set_link_parameters(robot, link, std::move(values));
     }
 
+    /// Own gravity or wind, or those of the world.
+    static Result<> give_surroundings(Client& client, RobotId robot, Random& random) {
+        if (random.integer(0, 3) == 0) return client.reset_surroundings(robot);
+        if (random.integer(0, 2) == 0) return client.set_wind(robot, random.vector(5));
+        const Vec3 gravity = client.model().gravity * random.uniform(0, 1.5);
+        return client.set_gravity(robot, gravity + random.vector(1));
+    }
+
     Result<> give_order(Client& client, RobotId robot, Random& random) {
         const RobotType& type = client.model().type_of(robot);
         const RobotState& state = client.state(robot);
         const double pull = state.q[0] - state.q[1];
         if (!type.channels.empty() && random.integer(0, 2) > 0) return give_command(client, robot, random);
-        const int pick = random.integer(0, 14);
+        const int pick = random.integer(0, 15);
+        if (pick == 15) return give_surroundings(client, robot, random);
         if ((pick < 6 || pick > 12) && !type.joints.empty()) {
             const JointId joint(
                 static_cast<std::size_t>(random.integer(0, static_cast<int>(type.joints.size()) - 1)));

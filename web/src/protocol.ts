@@ -100,7 +100,7 @@ export const PAGE_OVERLAYS = [
 
 export type Overlay = 'contacts' | 'radio' | 'bounds' | 'groups';
 
-export type OrderAction = 'pose' | 'velocity' | 'wrench' | 'joint' | 'joint_parameters' | 'link_parameters' | 'command'
-    | 'attach' | 'detach';
+export type OrderAction = 'pose' | 'velocity' | 'wrench' | 'joint' | 'joint_parameters' | 'link_parameters' |
+    'surroundings' | 'command' | 'attach' | 'detach';
 
 export type MotorMode = 'passive' | 'velocity' | 'position' | 'effort';

@@ -17,6 +17,7 @@
 |---|---|
 | joint | a number of joints: damping, friction, gains, bounds of motors ... |
 | link | a number of links: mass, centre of mass, inertia, friction, restitution ... |
+| surroundings | gravity or wind |
 | kick | a change of the base's velocity |
 | push | a wrench on a link |
 | noise | what is added to observations |
@@ -27,7 +28,7 @@ Environments of roboss.envs take the terms as `randomize=`.
 from .distributions import Distribution, choice, log_uniform, normal, uniform
 from .randomizer import Randomizer, RandomizerSave
 from .streams import pick, stream
-from .terms import Term, joint, kick, latency, link, noise, push
+from .terms import Term, joint, kick, latency, link, noise, push, surroundings
 
 __all__ = ["Distribution", "Randomizer", "RandomizerSave", "Term", "choice", "joint", "kick", "latency", "link",
-           "log_uniform", "noise", "normal", "pick", "push", "stream", "uniform"]
+           "log_uniform", "noise", "normal", "pick", "push", "stream", "surroundings", "uniform"]

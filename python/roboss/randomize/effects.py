@@ -34,7 +34,7 @@ def orders_of(agents: Agents, draws: Sequence[Draw], restarted: Optional[Mask]) 
         restarted: agents whose numbers of the file, and older draws, may be back; None: none.
     """
     orders: list[Order] = []
-    for kind in ("joint", "link"):
+    for kind in ("joint", "link", "surroundings"):
         some = [(draw, draw.term) for draw in draws if isinstance(draw.term, NumberTerm) and draw.term.kind == kind]
         if some:
             touched = np.any([draw.new for draw, _ in some], axis=0) if restarted is None else restarted
@@ -61,8 +61,8 @@ def obey(orders: list[Order]) -> None:
 def _numbers_order(kind: str, draws: list[tuple[Draw, NumberTerm]], robots: Robots, agents: Rows) -> Order:
     """Sets all numbers of a kind that terms are about: the file's, with the terms applied one after the other.
 
-    Others stay: of joints what they have is set again, of links NaN leaves it, as an inertia that follows its mass. A link that
-    has no such number in the file gets none.
+    Others stay: of joints and surroundings what they have is set again, of links NaN leaves it, as an inertia that
+    follows its mass. A link that has no such number in the file gets none.
     """
     own, parts = numbers_of(robots, kind), parts_of(robots, kind)
     about: dict[str, list[str]] = {}  # the parts, by the parameter
@@ -73,7 +73,7 @@ def _numbers_order(kind: str, draws: list[tuple[Draw, NumberTerm]], robots: Robo
     values: dict[str, Floats] = {}
     for parameter, some in about.items():
         of_file = own.of_file(parameter)[..., places].reshape(len(agents), -1)
-        others = own[parameter][..., places].reshape(of_file.shape) if kind == "joint" else np.nan
+        others = own[parameter][..., places].reshape(of_file.shape) if kind != "link" else np.nan
         values[parameter] = np.where([part in some for part in touched], of_file, others)
     for draw, term in draws:
         array, mine = values[term.parameter], [touched.index(part) for part, _ in draw.columns]

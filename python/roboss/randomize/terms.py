@@ -10,13 +10,14 @@ import numpy as np
 
 from ..errors import ArgumentError
 from ..names import flag, listed, names_of, real, text, unknown, whole
-from ..parameters import JointParameters, LinkParameters
+from ..parameters import JointParameters, LinkParameters, Surroundings
 from ..robots import Robots
 from .distributions import Distribution, Floats
 
 Moment = Literal["start", "reset", "step"]
 When = Union[Moment, float, tuple[float, float]]  #: a moment; or an interval in s: its length, or least and most
 Operation = Literal["set", "scale", "add"]
+Kind = Literal["joint", "link", "surroundings"]
 _MOMENTS: dict[str, Moment] = {"start": "start", "reset": "reset", "step": "step"}
 _OPERATIONS: dict[str, Operation] = {"set": "set", "scale": "scale", "add": "add"}
 _TWIST = (("linear_x", "m/s"), ("linear_y", "m/s"), ("linear_z", "m/s"),
@@ -29,7 +30,7 @@ MOST_STEPS = 10_000                  # of latency
 
 @dataclass(frozen=True, eq=False)
 class Term(ABC):
-    """One row of a randomisation. `joint`, `link`, `kick`, `push`, `noise` and `latency` make one.
+    """One row of a randomisation. `joint`, `link`, `surroundings`, `kick`, `push`, `noise` and `latency` make one.
 
     Attributes:
         name: under which it is drawn and can be read back.
@@ -62,9 +63,9 @@ class Term(ABC):
 
 @dataclass(frozen=True, eq=False)
 class NumberTerm(Term):
-    """A number of joints or links."""
+    """A number of joints or links, gravity or wind."""
 
-    kind: Literal["joint", "link"]
+    kind: Kind
     parameter: str
     operation: Operation
     parts: tuple[str, ...]  # patterns of names
@@ -83,7 +84,8 @@ class NumberTerm(Term):
         units = own.units(self.parameter)  # raises: there is no such number
         for pattern in self.parts:
             if not any(fnmatchcase(name, pattern) for name in names):
-                raise unknown(self.kind, pattern, names, f" (term '{self.name}')")
+                raise unknown("component" if self.kind == "surroundings" else self.kind, pattern, names,
+                              f" (term '{self.name}')")
         return [(name, "1" if self.operation == "scale" else unit) for name, unit in zip(names, units)
                 if any(fnmatchcase(name, pattern) for pattern in self.parts)]
 
@@ -182,6 +184,25 @@ def link(parameter: str, distribution: Distribution, operation: str = "set", *, 
     return _number("link", parameter, distribution, operation, links, when, shared, name)
 
 
+def surroundings(parameter: str, distribution: Distribution, operation: str = "set", *,
+                 components: Union[str, Iterable[str]] = "*", when: When = "reset", shared: bool = False,
+                 name: Optional[str] = None) -> Term:
+    """Gravity in m/s^2 or steady wind in m/s of each robot, world axes, as `Robots.surroundings` has them.
+
+    Args:
+        parameter: "gravity" or "wind".
+        components: "x", "y", "z", or patterns; all others stay.
+        shared: one number for all these components: a factor of the whole vector.
+        name: of the term; None: "gravity" or "wind".
+
+    All others, and errors: as `joint`.
+
+    >>> term = roboss.randomize.surroundings("gravity", roboss.randomize.uniform(0.9, 1.1), "scale", shared=True)
+    """
+    return _number("surroundings", parameter, distribution, operation, components, when, shared,
+                   text("parameter", parameter) if name is None else name)
+
+
 def kick(distribution: Distribution, *, when: When = (5.0, 15.0), name: str = "kick") -> Term:
     """Adds to the velocities of the bases, at once.
 
@@ -242,16 +263,18 @@ def latency(distribution: Distribution, *, when: When = "reset", name: str = "la
 
 
 def parts_of(robots: Robots, kind: str) -> tuple[str, ...]:
-    """Names of the joints, or of the links."""
-    return robots.joints if kind == "joint" else robots.links
+    """Names of the joints, of the links, or of the components of gravity and wind."""
+    return Surroundings.components if kind == "surroundings" else robots.joints if kind == "joint" else robots.links
 
 
-def numbers_of(robots: Robots, kind: str) -> Union[JointParameters, LinkParameters]:
-    """The numbers of the joints, or of the links."""
+def numbers_of(robots: Robots, kind: str) -> Union[JointParameters, LinkParameters, Surroundings]:
+    """The numbers of the joints, or of the links; or gravity and wind."""
+    if kind == "surroundings":
+        return robots.surroundings
     return robots.parameters if kind == "joint" else robots.link_parameters
 
 
-def _number(kind: Literal["joint", "link"], parameter: str, distribution: Distribution, operation: str,
+def _number(kind: Kind, parameter: str, distribution: Distribution, operation: str,
             parts: Union[str, Iterable[str]], when: When, shared: bool, name: Optional[str]) -> Term:
     parameter = text("parameter", parameter)
     own = f"{kind}_{parameter}" if name is None else text("name", name)
@@ -260,9 +283,10 @@ def _number(kind: Literal["joint", "link"], parameter: str, distribution: Distri
     if operation == "scale" and not (_distribution(distribution).low >= 0).all():
         raise ArgumentError(f"term '{own}': a factor that can be {distribution.low.tolist()}",
                             "give a distribution from 0 on, as normal(1, 0.1, low=0)", "negative-scale")
-    patterns = tuple(names_of(f"{kind}s", parts))
+    part = "component" if kind == "surroundings" else kind
+    patterns = tuple(names_of(f"{part}s", parts))
     if not patterns:
-        raise ArgumentError(f"term '{own}' for no {kind}", "give names or patterns", "no-part")
+        raise ArgumentError(f"term '{own}' for no {part}", "give names or patterns", "no-part")
     return NumberTerm(own, _distribution(distribution), _moment(when), kind, parameter, _OPERATIONS[operation],
                       patterns, flag("shared", shared))
 

@@ -73,6 +73,13 @@ struct ActionToJson {
         for (const LinkParameterValue& one : a.values) numbers[info_of(one.parameter).name] = one.value;
         line["link_parameters"] = numbers;
     }
+    void operator()(const SetSurroundings& a) const {
+        nlohmann::ordered_json values = nlohmann::ordered_json::object();
+        if (a.reset) values["reset"] = true;
+        for (const SurroundingInfo& row : surroundings())
+            if (const std::optional<Vec3>& value = a.values.*row.own) values[row.name] = list(*value);
+        line["surroundings"] = values;
+    }
     void operator()(const Command& a) const {
         line["command"] = {{"name", type.channels[a.channel].channel.name}, {"values", a.values}};
     }

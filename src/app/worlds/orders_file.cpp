@@ -226,6 +226,17 @@ Action parse_link_parameters(const json& o, const RobotType& type, const std::st
     return order;
 }
 
+Action parse_surroundings(const json& o) {
+    only_keys(o, "surroundings", {"gravity", "wind", "reset"});
+    SetSurroundings order;
+    for (const SurroundingInfo& row : surroundings())
+        if (o.contains(row.name)) order.values.*row.own = vector(o, row.name);
+    if (!o.contains("reset")) return order;
+    if (!o["reset"].is_boolean()) throw LineFault("'reset' is not true or false", "write true");
+    order.reset = o["reset"].get<bool>();
+    return order;
+}
+
 /// For a command that the robot does not take.
 std::string remedy_for(const std::string& command, const RobotType& type) {
     std::string all;
@@ -422,6 +433,7 @@ Action parse_action(const json& o, const Model& model, RobotId id) {
     if (o.contains("joint_state")) return parse_joint_state(o["joint_state"], type, robot);
     if (o.contains("joint_parameters")) return parse_joint_parameters(o["joint_parameters"], type, robot);
     if (o.contains("link_parameters")) return parse_link_parameters(o["link_parameters"], type, robot);
+    if (o.contains("surroundings")) return parse_surroundings(o["surroundings"]);
     if (o.contains("command")) return parse_command(o["command"], type, robot);
     if (o.contains("attach")) return parse_attach(o["attach"], model, type, robot);
     if (o.contains("detach")) return parse_detach(o["detach"], model);
@@ -445,15 +457,15 @@ void take(Order order, const Model& model, std::vector<Order>& orders, LineFault
 void parse_order(const json& o, const Model& model, std::vector<Order>& orders, LineFaults& faults) {
     only_keys(o, "an order",
               {"t", "robot", "set_pose", "set_velocity", "wrench", "joint", "joint_state", "joint_parameters",
-               "link_parameters", "command", "attach", "detach", "pull", "transmit"});
+               "link_parameters", "surroundings", "command", "attach", "detach", "pull", "transmit"});
     const Tick tick = tick_of(o, model);
     const std::vector<RobotId> robots = robots_of(o, "robot", model);
     const int actions = static_cast<int>(o.size()) - 2;
     if (actions != 1)
         throw LineFault("the order has " + std::to_string(actions) + " actions",
                         "name one of set_pose, set_velocity, wrench, pull, joint, joint_state, "
-                        "joint_parameters, link_parameters, command, attach, detach, transmit, or publish "
-                        "without a robot");
+                        "joint_parameters, link_parameters, surroundings, command, attach, detach, transmit, "
+                        "or publish without a robot");
     for (const RobotId robot : robots) {
         Order order;
         order.apply_at = tick;

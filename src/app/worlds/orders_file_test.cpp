@@ -242,6 +242,39 @@ TEST(OrdersFile, ParametersOfLinksThatCannotBeSetAreNamedWithTheirLine) {
     }
 }
 
+TEST(OrdersFile, SurroundingsAreReadAndWrittenAlike) {
+    const auto model = cart_model();
+    Diagnostics d;
+    const auto orders = parse_orders(R"({"t":0.5,"robot":"*","surroundings":{"gravity":[0,0,-1.62]}})"
+                                     "\n"
+                                     R"({"t":1,"robot":"cart","surroundings":{"wind":[3,0,-1],"reset":true}})"
+                                     "\n"
+                                     R"({"t":2,"robot":"cart","surroundings":{"reset":true}})",
+                                     "f.jsonl", *model, d);
+    ASSERT_TRUE(d.items().empty()) << to_text(d.items()[0]);
+    ASSERT_EQ(orders.size(), model->robots.size() + 2);
+    EXPECT_EQ(orders.front().action, Action(SetSurroundings{false, {Vec3{0, 0, -1.62}, std::nullopt}}));
+    EXPECT_EQ(orders.end()[-2].action, Action(SetSurroundings{true, {std::nullopt, Vec3{3, 0, -1}}}));
+    EXPECT_EQ(orders.back().action, Action(SetSurroundings{true, {}}));
+    for (const Order& order : orders) {
+        const auto again = parse_orders(order_line(order, *model), "g.jsonl", *model, d);
+        ASSERT_EQ(again.size(), 1u);
+        EXPECT_EQ(again[0].action, order.action);
+    }
+}
+
+TEST(OrdersFile, SurroundingsThatCannotBeAreNamedWithTheirLine) {
+    for (const char* values : {R"({})", R"({"gravity":-9.8})", R"({"gravity":[0,0]})", R"({"gravity":null})",
+                               R"({"wind":[0,0,"1"]})", R"({"wind":[2000,0,0]})", R"({"gravity":[0,0,-1e4]})",
+                               R"({"reset":1})", R"({"air":[0,0,0]})", R"(7)"}) {
+        Diagnostics d;
+        const std::string line = std::string(R"({"t":1,"robot":"cart","surroundings":)") + values + "}";
+        EXPECT_TRUE(parse_orders(line, "f.jsonl", *cart_model(), d).empty()) << line;
+        ASSERT_EQ(d.items().size(), 1u) << line;
+        EXPECT_EQ(d.items()[0].where.line, 1);
+    }
+}
+
 TEST(OrdersFile, StatesOfJointsThatCannotBeSetAreNamedWithTheirLine) {
     for (const char* line : {R"({"t":1,"robot":"cart","joint_state":{"name":"glide","position":1}})",
                              R"({"t":1,"robot":"cart","joint_state":{"name":"slide","position":[1,2]}})",

@@ -136,7 +136,14 @@ template <class T>
 T gravity_along(const Model& model, const ContactSide<T>& side, const Vec3T<T>& n) {
     const Body* info = side.info();
     if (info == nullptr || !(info->mass > 0)) return 0.0;
-    return dot(broadcast<T>(model.gravity), n) * T(info->gravity_mass / info->mass);
+    return dot(broadcast<T>(gravity_of(model, *side.robot->type)), n) * T(info->gravity_mass / info->mass);
+}
+
+/// m/s^2: the size of gravity at the sides of a contact, the larger one.
+[[gnu::always_inline]] inline double gravity_at(const Model& model, const RobotType& a, const RobotType* b) {
+    const double size = norm(gravity_of(model, a));
+    const double other = b == nullptr ? size : norm(gravity_of(model, *b));
+    return other > size ? other : size;
 }
 
 /// Normal velocity before the step, from the states' velocities.
@@ -323,7 +330,9 @@ MaskOf<T> add_contact_row(const Model& model, const ContactT<T>& c, const Surfac
     if constexpr (std::is_same_v<T, double>)
         if (rows.keeps_places) rows.places.push_back(contact::place_of(c, frame, a, b));
     const MaskOf<T> loaded = c.load > T(0);
-    const MaskOf<T> hits = approach > T(contact::kTouchTicks * norm(model.gravity) * dt);
+    const double gravity =
+        contact::gravity_at(model, *a.robot->type, b == nullptr ? nullptr : b->robot->type);
+    const MaskOf<T> hits = approach > T(contact::kTouchTicks * gravity * dt);
     const T compliance =
         inverse_effective_mass *
         select(loaded | !hits, T(loaded_compliance<T>(model.accuracy)), T(new_compliance<T>(model.accuracy)));
@@ -345,8 +354,7 @@ MaskOf<T> add_contact_row(const Model& model, const ContactT<T>& c, const Surfac
         row.slip.slip_22 = surface.slip_22 / dt;
     }
     row.inverse_effective_mass = inverse_effective_mass;
-    row.warm_start_max =
-        larger(4.0 * c.load, T(contact::kWeights * norm(model.gravity) * dt / inverse_effective_mass));
+    row.warm_start_max = larger(4.0 * c.load, T(contact::kWeights * gravity * dt / inverse_effective_mass));
     contact::start_from_load(c, surface.friction, frame, loaded, slip_compliance, row);
     contact::count_surface_motion(surface, frame, row);
     return split;

@@ -10,7 +10,7 @@ namespace roboss {
 /// The wind that a robot feels in this tick, m/s, world axes.
 inline Vec3 wind_of(const Model& model, const RobotWork& work) {
     const int at = work.type->wind_index;
-    if (at < 0) return model.wind;
+    if (at < 0) return wind_of(model, *work.type);
     const double* wind = work.state->onboard.data() + at;
     return {wind[0], wind[1], wind[2]};
 }

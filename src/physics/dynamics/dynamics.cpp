@@ -87,13 +87,14 @@ void place_robot(const Model& model, RobotId id, RobotState& state, RobotWork& w
 void compute_impulse(const Model& model, double dt, double momentum_weight, std::span<const double> q,
                      std::span<const double> v, RobotWork& work, BodyWalk* walk) {
     const RobotType& type = *work.type;
+    const Vec3 gravity = gravity_of(model, type);
     const bool shared = walk != nullptr && walk->shares(type);
     if (shared)
         walk->each_block(type, [&](std::size_t first, std::size_t last) {
-            set_body_impulses(model.gravity, dt, momentum_weight, first, last, work);
+            set_body_impulses(gravity, dt, momentum_weight, first, last, work);
         });
     else
-        set_body_impulses(model.gravity, dt, momentum_weight, work);
+        set_body_impulses(gravity, dt, momentum_weight, work);
     add_wrenches(*work.type, *work.state, dt, work);
     if (!work.type->drags.empty()) add_drag(model, dt, momentum_weight != 0, work);
     work.flows.clear();

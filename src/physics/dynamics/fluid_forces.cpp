@@ -227,13 +227,14 @@ Submerged displaced(const FluidLayers& fluid, const Shape& shape, const Transfor
 /// What the fluids' pressure does to a link, about O.
 Spatial buoyancy(const Model& model, const RobotWork& work, const LinkFluid& fluid) {
     const std::vector<BodyShape>& shapes = work.type->shapes;
+    const Vec3 gravity = gravity_of(model, *work.type);
     Spatial sum{};
     auto shape = std::ranges::lower_bound(shapes, fluid.link, {}, &BodyShape::link);
     for (; shape != shapes.end() && shape->link == fluid.link; ++shape) {
         const Transform X_WS = work.bodies[static_cast<std::size_t>(shape->body)].X_WB * shape->X_BS;
         const Submerged mass = displaced(model.fluid, shape->shape, X_WS);
         const Vec3 moment = mass.moment + (X_WS.p - work.origin) * mass.volume;
-        sum += Spatial{cross(moment, model.gravity), model.gravity * mass.volume} * -1.0;
+        sum += Spatial{cross(moment, gravity), gravity * mass.volume} * -1.0;
     }
     return sum;
 }
@@ -459,7 +460,7 @@ bool may_stiffen(const Model& model, const RobotWork& work) {
         const Vec3 wind = wind_in(wing->density, model, work);
         const double arm = norm(wing->centre) + norm(body.p_BC),
                      speed = norm(through(m, wind).linear) + norm(m.velocity.angular) * norm(wing->centre) +
-                             norm(model.gravity) * model.dt_s;
+                             norm(gravity_of(model, *work.type)) * model.dt_s;
         const double stall = std::min(wing->alpha_stall, kQuarterTurn);
         const double most =
             (std::fabs(wing->cla) + std::fabs(wing->cda)) * stall +
@@ -487,7 +488,7 @@ bool flow_is_stiff(const Model& model, const RobotWork& work) {
     for_each_law(model, work, work.state->q, {}, look);
     if (kicks || sum > kRateMax) return true;
     sum = 0;  // once more, as fast as gravity makes it within the tick: at rest there is no force yet
-    for_each_law(model, work, work.state->q, {}, look, model.gravity * model.dt_s);
+    for_each_law(model, work, work.state->q, {}, look, gravity_of(model, *work.type) * model.dt_s);
     return kicks || sum > kRateMax;
 }
 

@@ -166,7 +166,7 @@ class KickDrift {
 
     /// Velocities stay but for what gravity adds: about its axis of rotation a body keeps its energy.
     void spin_on(const BodySums& before) {
-        if (type_.free_base) add_rigid_motion({{}, model_.gravity * model_.dt_s}, origin_, 1.0, state_);
+        if (type_.free_base) add_rigid_motion({{}, gravity_ * model_.dt_s}, origin_, 1.0, state_);
         advance_coordinates<double>(type_, state_.v, model_.dt_s, state_.q);
         if (type_.has_equalities()) buffer_.projection.close_coordinates(work_, state_.q);
         if (!type_.dofs.empty()) guard(before);
@@ -348,14 +348,14 @@ class KickDrift {
     std::optional<FreeCourse> course_of(const BodySums& before) const {
         if (!type_.free_base || !state_.wrenches.empty() || !type_.drags.empty() || type_.feels_flow)
             return std::nullopt;
-        if (model_.gravity != Vec3{})
+        if (gravity_ != Vec3{})
             for (const Body& body : type_.bodies)
                 if (body.gravity_mass != body.mass) return std::nullopt;
         const double dt = model_.dt_s, mass = before.inertia.mass;
         const Spatial kick = outer(solved_.kick), load = outer(solved_.load);
-        const Vec3 weight = model_.gravity * mass;
+        const Vec3 weight = gravity_ * mass;
         const Vec3 velocity = (before.momentum.linear + kick.linear) * (1.0 / mass);
-        const Vec3 acceleration = model_.gravity + load.linear * (1.0 / (mass * dt));
+        const Vec3 acceleration = gravity_ + load.linear * (1.0 / (mass * dt));
         const Vec3 centre = before.centre();
         const Vec3 arm = centre * dt + velocity * (0.5 * dt * dt);
         Spatial momentum = before.momentum + kick + load;
@@ -367,7 +367,7 @@ class KickDrift {
     void set_course(const FreeCourse& course, BodySums& now) {
         const Vec3 off = course.centre - now.centre();
         for (std::size_t i = 0; i < 3; ++i) state_.q[i] += off[i];
-        translate(off, model_.gravity, now);
+        translate(off, gravity_, now);
         BodySums lacks = now;
         lacks.momentum = {course.momentum.angular - now.momentum.angular,
                           course.momentum.linear - now.momentum.linear};
@@ -390,6 +390,7 @@ class KickDrift {
     RobotWork& work_;
     FreeBuffer& buffer_;
     const RobotType& type_ = *work_.type;
+    const Vec3 gravity_ = gravity_of(model_, type_);
     RobotState& state_ = *work_.state;
     const Vec3 origin_ = work_.origin;
     BodySums kicked_;     // right after the kick

@@ -58,7 +58,7 @@ bool is_lone_body(const Model& model, const RobotWork& work) {
     if (!work.state->wrenches.empty() || !type.drags.empty() || type.feels_flow) return false;
     const Body& body = type.bodies[0];
     if (!is_compact(body)) return false;
-    return body.gravity_mass == body.mass || body.gravity_mass == 0 || model.gravity == Vec3{};
+    return body.gravity_mass == body.mass || body.gravity_mass == 0 || gravity_of(model, type) == Vec3{};
 }
 
 bool advance_lone_body(const Model& model, double fastest, RobotWork& work) {
@@ -77,7 +77,7 @@ bool advance_lone_body(const Model& model, double fastest, RobotWork& work) {
     const double energy_before = 0.5 * dot(start.velocity.angular, rotation.momentum),
                  energy = 0.5 * dot(angular, rotation.momentum);
     if (!(energy <= (1 + kGrowth) * energy_before)) return false;
-    const Vec3 acceleration = model.gravity * (body.gravity_mass / body.mass);
+    const Vec3 acceleration = gravity_of(model, *work.type) * (body.gravity_mass / body.mass);
     const Vec3 before = start.velocity.linear + cross(start.velocity.angular, start.centre);
     const Vec3 linear = before + acceleration * dt - cross(angular, arm);
     const Vec3 moved = start.centre - arm + before * dt + acceleration * (0.5 * dt * dt);

@@ -66,14 +66,14 @@ bool BodySums::rigid_motion(Spatial& motion) const {
 BodySums sum_placed_bodies(const Model& model, std::span<const double> q, std::span<const double> v,
                            const Vec3& origin, RobotWork& work, BodyWalk* walk) {
     const RobotType& type = *work.type;
-    const Vec3 arm = work.origin - origin;
+    const Vec3 arm = work.origin - origin, gravity = gravity_of(model, type);
     BodySums sums;
     const auto terms_of = [&](std::size_t b) -> BodyWalk::Terms {
         const BodyWork& body = work.bodies[b];
         const Spatial momentum = body.inertia * body.velocity;
         const Vec3 heavy = body.X_WB * type.bodies[b].p_BG - origin;
         return {momentum, 0.5 * dot(momentum, body.velocity),
-                type.bodies[b].gravity_mass * dot(model.gravity, heavy)};
+                type.bodies[b].gravity_mass * dot(gravity, heavy)};
     };
     const auto add = [&](std::size_t b, const BodyWalk::Terms& terms) {
         sums.momentum += terms.momentum;

@@ -319,7 +319,7 @@ class LaneStep final : public LaneStepper {
         if constexpr (kIsFloat<T>) take_placed();
         constexpr double kMomentum = kIsFloat<T> ? 0.0 : 1.0;  // of floats, only what the tick changes
         rows_.clear();
-        set_body_impulses(model.gravity, model.dt_s, kMomentum, work_);
+        set_body_impulses(gravity_of(model, type), model.dt_s, kMomentum, work_);
         sum_impulses<T>(model.dt_s, kMomentum, joints.q, joints.v, work_);
         if constexpr (kIsFloat<T>) take_off_damping<T>(model.dt_s, joints.v, work_);
         compute_mass_matrix(type, model.dt_s, work_);

@@ -60,7 +60,7 @@ bool take_body(RobotWork& robot, Body& body) {
 Motion kick_of(const Model& model, const Body& body, double h) {
     const RobotWork& robot = *body.robot;
     const roboss::Body& info = robot.type->bodies[0];
-    Vec3 force = model.gravity * info.gravity_mass, torque;
+    Vec3 force = gravity_of(model, *robot.type) * info.gravity_mass, torque;
     if (info.gravity_mass != info.mass) torque = cross(robot.bodies[0].X_WB * info.p_BG - body.centre, force);
     for (const TimedWrench& w : robot.state->wrenches) {
         const Link& link = robot.type->links[w.link.index()];

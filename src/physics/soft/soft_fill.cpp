@@ -32,8 +32,14 @@ void put(const Vec3& v, std::size_t lane, Eight* to) {
 }
 
 /// m/s: slower blows do not bounce. At least the speed that gravity gives in two ticks.
-double least_blow(const Model& model, const SurfacePair& surface) {
-    return std::max(surface.bounce_threshold, contact::kTouchTicks * norm(model.gravity) * model.dt_s);
+double least_blow(const Island& island, std::size_t contact) {
+    const Contact& c = *island.contacts[contact];
+    const auto type = [&](int robot) {
+        return robot < 0 ? nullptr : island.robots[static_cast<std::size_t>(robot)].type;
+    };
+    const double gravity = contact::gravity_at(island.model, *type(c.robot_a), type(c.robot_b));
+    return std::max(island.surfaces[contact].bounce_threshold,
+                    contact::kTouchTicks * gravity * island.model.dt_s);
 }
 
 /// The sides of a pair of free bodies.
@@ -102,7 +108,7 @@ void Solver::fill_batch(const Island& island, std::size_t batch) {
 /// The rows of the normals.
 void Solver::fill(const Island& island, const Pair& pair, const Start& start, std::size_t lane,
                   const Batch& batch, Patch& patch) {
-    const double way = pair.swapped ? -1 : 1, least = least_blow(island.model, island.surfaces[pair.first]);
+    const double way = pair.swapped ? -1 : 1, least = least_blow(island, pair.first);
     const Vec3 n = island.contacts[pair.first]->normal * way;
     put(n, lane, patch.n);
     patch.inverse_mass_a.x[lane] = inverse_mass(pair.a), patch.inverse_mass_b.x[lane] = inverse_mass(pair.b);

@@ -2,7 +2,7 @@
 // radians; a pose is [x, y, z, qw, qx, qy, qz].
 import type { BondReport, ChannelInfo, ChannelReport, Extras, FlowInfo, OnboardAction, SurfaceReport } from "./onboard";
 import type { LightInfo, LookInfo } from "./look";
-import type { NumbersAction, NumbersReport, NumbersWish, OwnNumbers } from "./numbers";
+import type { NumbersAction, NumbersReport, NumbersWish, OwnNumbers, SurroundingsAction } from "./numbers";
 import type { StepProfile } from "./profile";
 import type { OverlayReport } from "./overlay";
 import type { Roles } from "./roles";
@@ -277,6 +277,7 @@ export type OrderAction =
     | PullAction
     | { action: "joint"; joint: number; axis: number; mode: string; target: number; max_effort?: number }
     | NumbersAction
+    | SurroundingsAction
     | OnboardAction;
 
 export interface Watch {

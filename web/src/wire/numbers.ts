@@ -1,6 +1,8 @@
 // Own numbers of robots, in the protocol (docs/viewer-protocol.md): damping, limits and gains of joint axes, masses and
 // friction of links. Types of the JSON. null is no bound.
 
+import type { Triple } from "./messages";
+
 /** By name. */
 export type NumberValues = Record<string, number | null>;
 
@@ -13,6 +15,9 @@ export type NumbersWish = { robot: number } & NumbersPlace;
 export interface OwnNumbers {
     joints?: { joint: number; axis: number; values: NumberValues }[];
     links?: { link: number; values: NumberValues }[];
+    /** m/s^2 and m/s, world axes, in place of the world's. */
+    gravity?: Triple;
+    wind?: Triple;
 }
 
 export interface NumberRow {
@@ -33,6 +38,9 @@ export type NumbersReport = {
     tick: number;
     numbers: NumberRow[];
 } & NumbersPlace;
+
+/** Gravity and wind at a robot. `reset`: what is not named becomes that of the file. */
+export type SurroundingsAction = { action: "surroundings"; gravity?: Triple; wind?: Triple; reset?: boolean };
 
 /** `reset`: all that are not named become those of the file. */
 export type NumbersAction = { values?: NumberValues; reset?: boolean } & (
