@@ -180,7 +180,7 @@ template <class A, class M> void sensor_names(A& a, M& model) {
 }
 
 /// Does nothing but name every field: a new one breaks the build here, so that it is not forgotten above. (What seal()
-/// computes is left out above: hashes, paths, the tree over the scenery.)
+/// computes is left out above: hashes, paths, the tree over the scenery; and what a type has of a robot alone.)
 [[maybe_unused]] void know_fields(const Body& m) { [[maybe_unused]] const auto& [f0, f1, f2, f3, f4, f5, f6, f7, f8, f9, f10, f11, f12, f13, f14, f15] = m; }
 [[maybe_unused]] void know_fields(const Dof& m) { [[maybe_unused]] const auto& [f0, f1, f2, f3, f4, f5, f6, f7, f8, f9, f10, f11, f12, f13, f14, f15] = m; }
 [[maybe_unused]] void know_fields(const Link& m) { [[maybe_unused]] const auto& [f0, f1, f2, f3, f4, f5, f6, f7, f8] = m; }
@@ -198,7 +198,7 @@ template <class A, class M> void sensor_names(A& a, M& model) {
 [[maybe_unused]] void know_fields(const SensorSpec& m) { [[maybe_unused]] const auto& [f0, f1, f2, f3, f4, f5, topic_stays, ros_topic, ros_frame] = m; }
 [[maybe_unused]] void know_fields(const NoiseSpec& m) { [[maybe_unused]] const auto& [f0, f1, f2, f3, f4, f5, f6] = m; }
 [[maybe_unused]] void know_fields(const SensorInfo& m) { [[maybe_unused]] const auto& [f0, f1] = m; }
-[[maybe_unused]] void know_fields(const RobotType& m) { [[maybe_unused]] const auto& [f0, f1, f2, f3, f4, f5, f6, f7, f8, f9, f10, f11, f12, f13, f14, f15, f16, f17, f18, f19, f20, f21, f22, f23, f24, f25, f26, f27, f28, f29, f30, f31, f32, f33, elimination, radios_of_sensors, shape_groups, reach_sphere, step_hash, like] = m; }
+[[maybe_unused]] void know_fields(const RobotType& m) { [[maybe_unused]] const auto& [f0, f1, f2, f3, f4, f5, f6, f7, f8, f9, f10, f11, f12, f13, f14, f15, f16, f17, f18, f19, f20, f21, f22, f23, f24, f25, f26, f27, f28, f29, f30, f31, f32, f33, elimination, radios_of_sensors, shape_groups, reach_sphere, step_hash, like, around] = m; }
 [[maybe_unused]] void know_fields(const Robot& m) { [[maybe_unused]] const auto& [f0, f1, f2, f3, f4, f5] = m; }
 [[maybe_unused]] void know_fields(const StaticShape& m) { [[maybe_unused]] const auto& [f0, f1, f2, f3, f4, f5, f6, f7, f8] = m; }
 [[maybe_unused]] void know_fields(const Accuracy& m) { [[maybe_unused]] const auto& [f0, f1, f2, f3, f4, f5, f6, f7] = m; }

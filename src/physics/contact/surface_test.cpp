@@ -297,6 +297,27 @@ TEST(RollingFriction, HoldsABallOnASlopeBelowTheLeverOverTheRadius) {
     }
 }
 
+/// A ball on a slide cannot turn, so torsional and rolling friction find nothing to act on.
+TEST(RollingFriction, OfABallThatCannotTurnDoesNothing) {
+    double rest[2] = {};
+    for (const bool rolls : {false, true}) {
+        SurfaceSpec s = surface(0.5);
+        if (rolls) s.torsional_mu = 0.1, s.rolling_mu = 0.01;
+        ModelSpec ball = solid_sphere(2.0, 0.1, s);
+        ball.joints.push_back(
+            joint(JointSpecKind::kPrismatic, "slide", "world", ball.links[0].name, {}, {0, 0, 1}));
+        World world = empty_world(1e-3);
+        place(world, ground(surface(0.5)), "ground");
+        place(world, ball, "ball", {{0, 0, 0.05}, {}});
+        Simulation sim(world);
+        sim.run(1);
+        for (const double x : sim.states[0].q) ASSERT_TRUE(std::isfinite(x));
+        rest[rolls] = sim.states[0].q.back();
+    }
+    EXPECT_EQ(rest[0], rest[1]);
+    EXPECT_NEAR(rest[0], 0.05, 1e-3) << "pushed out of the ground";
+}
+
 TEST(Surface, AtMostSoManyContactsOfAPair) {
     SurfaceSpec s = surface(0.5);
     for (const int most : {0, 1, 3, 4, 9}) {

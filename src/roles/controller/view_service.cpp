@@ -68,12 +68,13 @@ std::vector<ViewService::Due> ViewService::take_due(Tick tick, std::int64_t now_
     std::erase_if(watchers_, [&](const Watcher& w) { return now_ms - w.heard_ms > kForgottenAfter_ms; });
     std::vector<Due> due;
     for (Watcher& w : watchers_) {
-        Due d{w.viewer, w.view.due(w.request.interval_ms, tick, now_ms), false, {}};
-        if (w.exact.due(w.request.exact_interval_ms, tick, now_ms)) {
-            d.exact_all = w.request.exact_all;
-            d.exact = w.request.exact;
-        }
-        if (d.view || d.exact_all || !d.exact.empty()) due.push_back(std::move(d));
+        const bool view = w.view.due(w.request.interval_ms, tick, now_ms);
+        const bool exact = w.exact.due(w.request.exact_interval_ms, tick, now_ms) &&
+                           (w.request.exact_all || !w.request.exact.empty());
+        if (!view && !exact) continue;
+        Due& d = due.emplace_back();
+        d.viewer = w.viewer, d.view = view;
+        if (exact) d.exact_all = w.request.exact_all, d.exact = w.request.exact;
     }
     return due;
 }
