@@ -272,6 +272,7 @@ SceneFile scene_file(const Scene& scene, const Model& model, std::uint64_t seed)
            {"robots", std::move(robots)},
            {"statics", json_of(scene.statics, scene)},
            {"groups_max", kGroupsMax}};
+    if (model.wind != Vec3{}) o["wind"] = json_of(model.wind);
     if (Json look = json_of(scene.look); !look.is_null()) o["look"] = std::move(look);
     for (const SceneFlow& flow : scene.flows) o["flows"].push_back(json_of(flow, scene));
     SceneFile file{model.hash, seed, o.dump(-1, ' ', false, Json::error_handler_t::replace), {}, {}};

@@ -200,12 +200,13 @@ ShownRobot decoded(const std::vector<std::uint8_t>& entry, const Json& ranges) {
     return shown;
 }
 
-TEST(Scene, CommandsAndSceneryThatMovesAreToldOnlyWhereThereAreSome) {
+TEST(Scene, WindCommandsAndSceneryThatMovesAreToldOnlyWhereThereAreSome) {
     const World world = small_world();
     Model model = *test::compiled(world);
     Scene scene = make_scene(model, &world);
     Json plain = Json::parse(scene_file(scene, model, 0).json);
     EXPECT_FALSE(plain.contains("flows"));
+    EXPECT_FALSE(plain.contains("wind"));
     for (const Json& type : plain["types"]) EXPECT_FALSE(type.contains("channels"));
 
     const std::size_t red = model.find_robot("red")->index();
@@ -217,6 +218,7 @@ TEST(Scene, CommandsAndSceneryThatMovesAreToldOnlyWhereThereAreSome) {
     belt.motion.linear = {0.5, 0, 0};
     table.robot = RobotId(red), table.link = LinkId(0u);
     scene.flows = {belt, table};
+    model.wind = {3, 0, -1};
     scene.types[scene.robots[red]].links[0].collisions[0].still = true;
     const Json told = Json::parse(scene_file(scene, model, 0).json);
     EXPECT_EQ(
@@ -224,6 +226,7 @@ TEST(Scene, CommandsAndSceneryThatMovesAreToldOnlyWhereThereAreSome) {
         Json::parse(
             R"([{"name": "cmd_vel", "list": false, "values": [{"name": "linear_x", "unit": "m/s"}]}])"));
     EXPECT_EQ(told["types"][scene.robots[red]]["links"][0]["collisions"][0]["still"], true);
+    EXPECT_EQ(told["wind"], Json({3, 0, -1}));
     EXPECT_EQ(told["flows"][0]["linear"], Json({0.5, 0, 0}));
     EXPECT_EQ(told["flows"][0]["shape"], told["statics"][0]);
     EXPECT_FALSE(told["flows"][0].contains("robot"));

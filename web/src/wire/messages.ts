@@ -98,7 +98,9 @@ export interface SceneInfo {
     scene: number;
     world: string;
     dt: number;
+    /** m/s^2 and m/s, world axes. No wind: the air stands still. */
     gravity: Triple;
+    wind?: Triple;
     seed?: number;
     types: TypeInfo[];
     robots: { name: string; type: number }[];
@@ -218,7 +220,7 @@ export interface RobotReport {
     surfaces?: SurfaceReport[];
     bonds?: BondReport[];
     held_by?: BondReport[];
-    /** Numbers of joints and links that differ from the file. */
+    /** Numbers that differ from the file. */
     own?: OwnNumbers;
 }
 
