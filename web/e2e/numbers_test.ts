@@ -1,4 +1,4 @@
-// Numbers of joints and links in the inspector: they are shown, changed, refused in words, given back and undone.
+// Own numbers in the inspector, of joints, links, gravity and wind: they are shown, changed, refused in words, given back and undone.
 import assert from "node:assert/strict";
 import type { Page } from "playwright-core";
 import { Bench, choose, fewPixels, notice, until } from "./bench";
@@ -33,7 +33,7 @@ bench.test("the numbers are folded, and asked for when they are opened", async (
     assert.equal(await damping(page).count(), 0);
     assert.equal(await page.evaluate(() => window.roboss.state.wantsNumbers.value), null);
     await section(page).locator("summary").click();
-    await page.getByLabel("Joint or link whose numbers are shown").selectOption({ label: "front_left" });
+    await page.getByLabel("Which numbers are shown").selectOption({ label: "front_left" });
     await until("its damping", () => damping(page).isVisible());
     assert.match((await row(page, "damping").textContent()) ?? "", /N m s\/rad/);
     assert.equal(await row(page, "damping").getAttribute("class"), "number-row", "it is that of the file");
@@ -90,14 +90,43 @@ bench.test("the numbers of the file are given back, and each change is undone", 
 });
 
 bench.test("a link has a mass", async (page) => {
-    await page.getByLabel("Joint or link whose numbers are shown").selectOption({ label: "chassis" });
+    await page.getByLabel("Which numbers are shown").selectOption({ label: "chassis" });
     const mass = page.getByLabel(/^mass of chassis/);
     await until("its mass", () => mass.isVisible());
     await mass.fill("7");
     await press(page, "Set");
     await until("it is the robot's", () =>
-        page.evaluate(() => window.roboss.state.report.value?.own?.links?.[0].values["mass"] === 7),
+        page.evaluate(() => window.roboss.state.report.value?.own?.links?.[0]?.values["mass"] === 7),
     );
+});
+
+bench.test("gravity and wind are set by component, refused in words, given back and undone", async (page) => {
+    const own = () =>
+        page.evaluate(() => {
+            const { gravity, wind } = window.roboss.state.report.value?.own ?? {};
+            return JSON.stringify({ gravity, wind });
+        });
+    await page.getByLabel("Which numbers are shown").selectOption({ label: "gravity and wind" });
+    const down = page.getByLabel("gravity_z of car_3, m/s^2");
+    await until("the file's", async () => (await down.inputValue()) === "-9.8");
+    assert.equal(await page.evaluate(() => window.roboss.state.wantsNumbers.value), null, "reports have them");
+    await down.fill("-1.62");
+    await page.getByLabel("wind_x of car_3, m/s").fill("3");
+    await press(page, "Set");
+    await until("they are the robot's", async () => (await own()) === '{"gravity":[0,0,-1.62],"wind":[3,0,0]}');
+    await until("marks", async () => (await section(page).locator(".number-row.own").count()) === 2);
+    assert.match((await row(page, "gravity_z").textContent()) ?? "", /m\/s\^2file: -9.8$/);
+    assert.match((await row(page, "wind_x").textContent()) ?? "", /m\/sfile: 0$/);
+    await down.fill("-1001");
+    await down.press("Enter");
+    await until("why", async () => (await fault(page)).includes("beyond the limit"));
+    await down.press("Escape");
+    await press(page, "As in the file");
+    await until("the file's again", async () => (await own()) === "{}");
+    assert.equal(await page.evaluate(() => window.roboss.scene.editing.undo.undo()), "gravity and wind of car_3");
+    await until("as before", async () => (await own()) === '{"gravity":[0,0,-1.62],"wind":[3,0,0]}');
+    await until("it is shown", async () => (await down.inputValue()) === "-1.62");
+    await page.getByLabel("Which numbers are shown").selectOption({ label: "chassis •" });
 });
 
 bench.test("a page that may only look has no way to change them", async (page) => {
@@ -107,6 +136,8 @@ bench.test("a page that may only look has no way to change them", async (page) =
     });
     assert.equal(await page.getByLabel(/^mass of chassis/).getAttribute("readonly"), "");
     assert.equal(await section(page).getByRole("button", { name: "Set", exact: true }).isVisible(), false);
+    await page.getByLabel("Which numbers are shown").selectOption({ label: "gravity and wind •" });
+    assert.equal(await page.getByLabel("gravity_z of car_3, m/s^2").getAttribute("readonly"), "");
 });
 
 bench.endsWithCleanConsole();

@@ -1,8 +1,18 @@
-// The mock's own numbers of robots: some of each joint axis and link, which orders change and give back. They act on
-// nothing.
+// The mock's own numbers of robots: some of each joint axis and link, gravity and wind, which orders change and give back.
+// They act on nothing.
 import { ownAt, samePlace, withPartners } from "../src/model/numbers";
 import type { OrderAction, SceneInfo } from "../src/wire/messages";
-import type { NumberRow, NumbersPlace, NumbersWish, NumberValues, OwnNumbers } from "../src/wire/numbers";
+import type {
+    NumberRow,
+    NumbersPlace,
+    NumbersWish,
+    NumberValues,
+    OwnNumbers,
+    SurroundingsAction,
+} from "../src/wire/numbers";
+
+/** As the simulator's. */
+const SURROUNDINGS_MAX = 1e3;
 
 export class MockNumbers {
     private readonly all = new Map<number, OwnNumbers>();
@@ -50,6 +60,7 @@ export class MockNumbers {
 
     /** null: the order is for something else; "": it is taken; else why it is refused. */
     obey(robot: number, order: OrderAction): string | null {
+        if (order.action === "surroundings") return this.surround(robot, order);
         if (order.action !== "joint_parameters" && order.action !== "link_parameters") return null;
         const place: NumbersPlace =
                 order.action === "link_parameters" ? { link: order.link } : { joint: order.joint, axis: order.axis },
@@ -67,9 +78,22 @@ export class MockNumbers {
         return "";
     }
 
+    private surround(robot: number, { gravity, wind, reset }: SurroundingsAction): string {
+        const far = [...(gravity ?? []), ...(wind ?? [])].find((value) => Math.abs(value) > SURROUNDINGS_MAX);
+        if (far !== undefined) return `a component is ${far}, beyond the limit of ${SURROUNDINGS_MAX} [beyond-limit]`;
+        const { gravity: had, wind: blew, ...rest } = this.all.get(robot) ?? {},
+            now = reset === true ? { gravity, wind } : { gravity: gravity ?? had, wind: wind ?? blew },
+            own: OwnNumbers = { ...rest };
+        if (now.gravity !== undefined && String(now.gravity) !== String(this.scene.gravity)) own.gravity = now.gravity;
+        if (now.wind !== undefined && String(now.wind) !== String(this.scene.wind ?? [0, 0, 0])) own.wind = now.wind;
+        this.all.set(robot, own);
+        return "";
+    }
+
     private keep(robot: number, place: NumbersPlace, values: NumberValues): void {
-        const { joints = [], links = [] } = this.all.get(robot) ?? {},
+        const { joints = [], links = [], ...around } = this.all.get(robot) ?? {},
             own: OwnNumbers = {
+                ...around,
                 joints: joints.filter((one) => !samePlace(one, place)),
                 links: links.filter((one) => !samePlace(one, place)),
             };

@@ -1,4 +1,4 @@
-// Numbers of joints and links as people write them, and the orders that set them and take that back.
+// Own numbers of robots as people write them, and the orders that set them and take that back.
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import {
@@ -11,6 +11,7 @@ import {
     samePlace,
     withPartners,
 } from "../src/model/numbers";
+import { surroundingsRows } from "../src/model/surroundings";
 import type { JointInfo } from "../src/wire/messages";
 import type { NumberRow, OwnNumbers } from "../src/wire/numbers";
 import { IDENTITY, typeOf } from "./support";
@@ -87,11 +88,65 @@ test("what a robot has of its own is found by its place", () => {
     assert.equal(samePlace({ link: 0 }, { joint: 0, axis: 0 }), false);
 });
 
-test("each axis of a joint is a place, and each link", () => {
+test("gravity and wind are those of the file where the robot has none of its own", () => {
+    const file = { gravity: [0, 0, -9.8] as [number, number, number] },
+        row = (name: string, value: number) => ({ name, unit: name.startsWith("wind") ? "m/s" : "m/s^2", value });
+    assert.deepEqual(surroundingsRows(undefined, file), [
+        row("gravity_x", 0),
+        row("gravity_y", 0),
+        row("gravity_z", -9.8),
+        row("wind_x", 0),
+        row("wind_y", 0),
+        row("wind_z", 0),
+    ]);
+    assert.deepEqual(surroundingsRows({ gravity: [0.5, 0, -1.62] }, { ...file, wind: [3, 0, -1] }), [
+        { ...row("gravity_x", 0.5), file: 0 },
+        row("gravity_y", 0),
+        { ...row("gravity_z", -1.62), file: -9.8 },
+        row("wind_x", 3),
+        row("wind_y", 0),
+        row("wind_z", -1),
+    ]);
+    const calm = surroundingsRows({ wind: [0, 0, 0] }, { ...file, wind: [3, 0, 0] });
+    assert.deepEqual(calm[3], { ...row("wind_x", 0), file: 3 }, "still air is an own wind, too");
+});
+
+test("components of gravity are ordered together, and those of the wind", () => {
+    const rows = surroundingsRows({ gravity: [0.5, 0, -1.62] }, { gravity: [0, 0, -9.8], wind: [3, 0, -1] }),
+        order = (values: Record<string, number>, reset = false) =>
+            numbersAction("surroundings", withPartners(values, rows), reset);
+    assert.deepEqual(order({ gravity_y: 2 }), { action: "surroundings", reset: false, gravity: [0.5, 2, -1.62] });
+    assert.deepEqual(order({ wind_z: 0 }), { action: "surroundings", reset: false, wind: [3, 0, 0] });
+    assert.deepEqual(order({ gravity_x: 1, wind_x: 2 }), {
+        action: "surroundings",
+        reset: false,
+        gravity: [1, 0, -1.62],
+        wind: [2, 0, -1],
+    });
+    assert.deepEqual(order({}, true), { action: "surroundings", reset: true }, "all are those of the file again");
+});
+
+test("own gravity and own wind count as one number each, and are given back as they were", () => {
+    const own: OwnNumbers = { gravity: [0, 0, -1.62], links: [{ link: 0, values: { mass: 3 } }] };
+    assert.equal(ownCount(own), 2);
+    assert.equal(ownCount({ ...own, wind: [0, 0, 0] }), 3);
+    assert.deepEqual(ownAt(own, "surroundings"), { gravity_x: 0, gravity_y: 0, gravity_z: -1.62 });
+    assert.deepEqual(ownAt({ links: own.links }, "surroundings"), {});
+    assert.deepEqual(numbersAction("surroundings", ownAt(own, "surroundings"), true), {
+        action: "surroundings",
+        reset: true,
+        gravity: [0, 0, -1.62],
+    });
+    assert.equal(samePlace("surroundings", "surroundings"), true);
+    assert.equal(samePlace("surroundings", { link: 0 }), false);
+});
+
+test("each axis of a joint is a place, and each link, beside gravity and wind", () => {
     const joint = (name: string, axes: number) => ({ name, axes }) as unknown as JointInfo,
         link = (name: string) => ({ name, body: 0, frame: IDENTITY, visuals: [], collisions: [] }),
         joints = [joint("hinge", 1), joint("weld", 0), joint("cardan", 2)];
     assert.deepEqual(placesOf(typeOf([], [], { joints, links: [link("base"), link("arm")] })), [
+        { name: "gravity and wind", kind: "robot", place: "surroundings" },
         { name: "hinge", kind: "joint", place: { joint: 0, axis: 0 } },
         { name: "cardan 1", kind: "joint", place: { joint: 2, axis: 0 } },
         { name: "cardan 2", kind: "joint", place: { joint: 2, axis: 1 } },

@@ -1,6 +1,17 @@
-// Numbers of joints and links as a person edits them: as texts, and as the orders that set them or take that back.
-import type { NumberRow, NumbersAction, NumbersPlace, NumberValues, OwnNumbers } from "../wire/numbers";
+// Own numbers of robots as a person edits them: as texts, and as the orders that set them or take that back.
+import type {
+    NumberRow,
+    NumbersAction,
+    NumbersPlace,
+    NumberValues,
+    OwnNumbers,
+    SurroundingsAction,
+} from "../wire/numbers";
 import type { TypeInfo } from "../wire/messages";
+import { ownSurroundings, surroundingsAction, surroundingsCount } from "./surroundings";
+
+/** A joint axis, a link, or gravity and wind at the robot. */
+export type Place = NumbersPlace | "surroundings";
 
 const DIGITS = 7;
 
@@ -20,7 +31,7 @@ export function numberOf(text: string, row: NumberRow): number | null | undefine
 }
 
 /** Numbers that come together: the run takes none of them alone. */
-const TOGETHER = [/^(lower|upper)$/, /^inertia_/];
+const TOGETHER = [/^(lower|upper)$/, /^inertia_/, /^gravity_/, /^wind_/];
 
 /** The values, with those that have to come with them as they are now. */
 export function withPartners(values: NumberValues, rows: readonly NumberRow[]): NumberValues {
@@ -32,13 +43,15 @@ export function withPartners(values: NumberValues, rows: readonly NumberRow[]): 
     return all;
 }
 
-export function samePlace(a: NumbersPlace, b: NumbersPlace): boolean {
+export function samePlace(a: Place, b: Place): boolean {
+    if (a === "surroundings" || b === "surroundings") return a === b;
     if ("link" in a) return "link" in b && a.link === b.link;
     return !("link" in b) && a.joint === b.joint && a.axis === b.axis;
 }
 
 /** The order for this place. */
-export function numbersAction(place: NumbersPlace, values: NumberValues, reset: boolean): NumbersAction {
+export function numbersAction(place: Place, values: NumberValues, reset: boolean): NumbersAction | SurroundingsAction {
+    if (place === "surroundings") return surroundingsAction(values, reset);
     const what = { values, reset };
     return "link" in place
         ? { action: "link_parameters", link: place.link, ...what }
@@ -46,21 +59,28 @@ export function numbersAction(place: NumbersPlace, values: NumberValues, reset: 
 }
 
 /** The numbers that differ from the file at this place. */
-export function ownAt(own: OwnNumbers | undefined, place: NumbersPlace): NumberValues {
+export function ownAt(own: OwnNumbers | undefined, place: Place): NumberValues {
+    if (place === "surroundings") return ownSurroundings(own);
     const all = "link" in place ? own?.links : own?.joints;
     return all?.find((one) => samePlace(one, place))?.values ?? {};
 }
 
-/** The count of numbers of the robot that differ from the file. */
+/** The count of numbers of the robot that differ from the file; gravity is one, and so is the wind. */
 export function ownCount(own: OwnNumbers | undefined): number {
     return [...(own?.joints ?? []), ...(own?.links ?? [])].reduce(
         (sum, { values }) => sum + Object.keys(values).length,
-        0,
+        surroundingsCount(own),
     );
 }
 
-/** All axes of joints and all links of a type, with their names. */
-export function placesOf(type: TypeInfo): { name: string; kind: "joint" | "link"; place: NumbersPlace }[] {
+export interface NamedPlace {
+    name: string;
+    kind: "joint" | "link" | "robot";
+    place: Place;
+}
+
+/** Gravity and wind, all axes of joints and all links of a type, with their names. */
+export function placesOf(type: TypeInfo): NamedPlace[] {
     const axes = type.joints.flatMap(({ name, axes }, joint) =>
         Array.from({ length: axes }, (_, axis) => ({
             name: axes > 1 ? `${name} ${axis + 1}` : name,
@@ -69,5 +89,5 @@ export function placesOf(type: TypeInfo): { name: string; kind: "joint" | "link"
         })),
     );
     const links = type.links.map(({ name }, link) => ({ name, kind: "link" as const, place: { link } }));
-    return [...axes, ...links];
+    return [{ name: "gravity and wind", kind: "robot", place: "surroundings" }, ...axes, ...links];
 }

@@ -127,7 +127,7 @@ export class Inspector {
         this.sensors = new SensorViews(type, rows, all.sensors);
         this.channels = new ChannelControls(robot, type, world.fleet.scene.dt, this.run);
         this.bonds = new BondControls(robot, world, this.state, this.run);
-        this.numbers = new NumberControls(robot, type, this.state, this.hands.editing);
+        this.numbers = new NumberControls(robot, world, this.state, this.hands.editing);
         this.bondSection = section("Bonds", this.bonds.element);
         this.bondSection.open = false;
         this.surfaces = section("Moving surfaces", h("div", { class: "surfaces" }));

@@ -1,21 +1,24 @@
-// The section "Numbers" of a robot: damping, limits and gains of a joint axis, mass and friction of a link that a person
-// chooses, as fields. What differs from the file is marked, with the file's number beside it. The run is asked for them
-// only while the section is open.
+// The section "Numbers" of a robot: damping, limits and gains of a joint axis, mass and friction of a link, or gravity and
+// wind, as a person chooses, as fields. What differs from the file is marked, with the file's number beside it. The run is
+// asked for them only while the section is open.
 import type { Editing } from "../model/editing";
 import {
+    type NamedPlace,
     numberOf,
     numbersAction,
     numberText,
     ownAt,
     ownCount,
+    type Place,
     placesOf,
     samePlace,
     withPartners,
 } from "../model/numbers";
-import type { ViewerState } from "../model/viewer_state";
+import { surroundingsRows } from "../model/surroundings";
+import type { ViewerState, World } from "../model/viewer_state";
 import { h, setText } from "../ui/dom";
-import type { RobotReport, TypeInfo } from "../wire/messages";
-import type { NumberRow, NumbersPlace, NumbersReport, NumberValues } from "../wire/numbers";
+import type { RobotReport } from "../wire/messages";
+import type { NumberRow, NumbersReport, NumberValues } from "../wire/numbers";
 
 class NumberField {
     readonly element: HTMLElement;
@@ -83,18 +86,18 @@ export class NumberControls {
     private readonly fault = h("p", { class: "fault", role: "status" });
     private readonly give: HTMLButtonElement;
     private readonly giveBack: HTMLButtonElement;
-    private readonly places: ReturnType<typeof placesOf>;
+    private readonly places: NamedPlace[];
     private fields: NumberField[] = [];
-    private told: NumbersReport | null = null;
+    private told: { place: Place; numbers: NumberRow[] } | null = null;
 
     constructor(
         private readonly robot: number,
-        type: TypeInfo,
+        private readonly world: World,
         private readonly state: ViewerState,
         private readonly editing: Editing,
     ) {
-        this.places = placesOf(type);
-        const group = (label: string, kind: "joint" | "link") => {
+        this.places = placesOf(world.fleet.type(robot));
+        const group = (label: string, kind: NamedPlace["kind"]) => {
             const options = this.places
                 .map(({ name, kind }, k) => ({ option: h("option", { value: k }, name), kind }))
                 .filter((one) => one.kind === kind);
@@ -102,7 +105,8 @@ export class NumberControls {
         };
         this.choice = h(
             "select",
-            { "aria-label": "Joint or link whose numbers are shown", onchange: () => this.wish() },
+            { "aria-label": "Which numbers are shown", onchange: () => this.wish() },
+            group("Robot", "robot"),
             group("Joints", "joint"),
             group("Links", "link"),
         );
@@ -124,17 +128,21 @@ export class NumberControls {
         this.permit();
     }
 
-    private get place(): NumbersPlace {
-        return this.places[Number(this.choice.value)].place;
+    private get chosen(): NamedPlace {
+        return this.places[Number(this.choice.value)];
     }
 
-    /** Asks the run for the numbers that are looked at. */
+    /** Asks the run for the numbers that are looked at. Gravity and wind come with each report of the robot. */
     private wish(): void {
         this.told = null;
         this.fields = [];
         this.table.replaceChildren();
         this.edited();
-        this.state.wantsNumbers.set(this.element.open ? { robot: this.robot, ...this.place } : null);
+        const { place } = this.chosen,
+            asks = this.element.open && place !== "surroundings",
+            report = this.state.report.value;
+        this.state.wantsNumbers.set(asks ? { robot: this.robot, ...place } : null);
+        if (report?.robot === this.robot) this.showSurroundings(report);
     }
 
     private key(event: KeyboardEvent): void {
@@ -177,37 +185,47 @@ export class NumberControls {
         const values: NumberValues = {};
         if (!reset) for (const field of typed) values[field.name] = field.value ?? null;
         const report = this.state.report.value,
-            before = report?.robot === this.robot ? ownAt(report.own, this.place) : {},
-            name = this.places[Number(this.choice.value)].name;
+            { place, name, kind } = this.chosen,
+            before = report?.robot === this.robot ? ownAt(report.own, place) : {};
         const answer = await this.editing.order(
             this.robot,
-            `numbers of ${name}`,
-            numbersAction(this.place, withPartners(values, told.numbers), reset),
-            numbersAction(this.place, withPartners(before, told.numbers), true),
+            kind === "robot" ? name : `numbers of ${name}`,
+            numbersAction(place, withPartners(values, told.numbers), reset),
+            numbersAction(place, withPartners(before, told.numbers), true),
         );
-        if (this.told === null || !samePlace(this.told, told)) return;
+        if (this.told === null || !samePlace(this.told.place, place)) return;
         if (answer.done) this.forget();
         else setText(this.fault, answer.text);
     }
 
-    /** All numbers of the place that is looked at. */
-    take(told: NumbersReport): void {
-        if (told.robot !== this.robot || !this.element.open || !samePlace(told, this.place)) return;
-        const names = told.numbers.map(({ name }) => name).join();
-        if (this.told === null || this.fields.map(({ name }) => name).join() !== names) {
-            const of = this.places[Number(this.choice.value)].name;
-            this.fields = told.numbers.map((row) => new NumberField(row, of, () => this.edited()));
+    /** All numbers of the axis or link that is looked at. */
+    take(report: NumbersReport): void {
+        if (report.robot === this.robot && this.element.open && samePlace(report, this.chosen.place))
+            this.fill(this.chosen, report.numbers);
+    }
+
+    private showSurroundings({ own }: RobotReport): void {
+        if (this.element.open && this.chosen.place === "surroundings")
+            this.fill(this.chosen, surroundingsRows(own, this.world.fleet.scene));
+    }
+
+    private fill({ place, name, kind }: NamedPlace, numbers: NumberRow[]): void {
+        const names = numbers.map((row) => row.name).join();
+        if (this.told === null || this.fields.map((field) => field.name).join() !== names) {
+            const of = kind === "robot" ? this.world.fleet.name(this.robot) : name;
+            this.fields = numbers.map((row) => new NumberField(row, of, () => this.edited()));
             this.table.replaceChildren(...this.fields.map((field) => field.element));
             if (this.fields.length === 0)
                 this.table.append(h("p", { class: "empty" }, "It has no mass and touches nothing."));
         }
-        this.told = told;
-        told.numbers.forEach((row, k) => this.fields[k].show(row));
+        this.told = { place, numbers };
+        numbers.forEach((row, k) => this.fields[k].show(row));
         this.permit();
     }
 
-    /** Marks the joints and links that have own numbers. */
+    /** Marks what has own numbers. */
     show(report: RobotReport): void {
+        this.showSurroundings(report);
         const count = ownCount(report.own);
         setText(this.title, count === 0 ? "Numbers" : `Numbers (${count} own)`);
         for (const option of this.choice.options) {

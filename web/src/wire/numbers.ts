@@ -1,5 +1,5 @@
 // Own numbers of robots, in the protocol (docs/viewer-protocol.md): damping, limits and gains of joint axes, masses and
-// friction of links. Types of the JSON. null is no bound.
+// friction of links, gravity and wind. Types of the JSON. null is no bound.
 
 import type { Triple } from "./messages";
 
@@ -11,7 +11,7 @@ export type NumbersPlace = { joint: number; axis: number } | { link: number };
 
 export type NumbersWish = { robot: number } & NumbersPlace;
 
-/** The numbers that differ from the file, of all joints and links of a robot. */
+/** The numbers that differ from the file, of a robot and all its joints and links. */
 export interface OwnNumbers {
     joints?: { joint: number; axis: number; values: NumberValues }[];
     links?: { link: number; values: NumberValues }[];
