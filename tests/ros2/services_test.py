@@ -94,6 +94,7 @@ class Gazebo(WithRun):
         seen = self.report_of("service_caller.py", "gazebo")
         done = ("create", "set_pose", "pause", "steps", "remove", "reset", "play")
         refused = ("name taken", "a copy", "set_pose of nobody", "seed", "part", "remove nobody")
+        self.assertEqual([name for name in done + refused if seen[name] is None], [], "calls without a reply")
         self.assertEqual({name: seen[name]["success"] for name in done + refused},
                          {**dict.fromkeys(done, True), **dict.fromkeys(refused, False)})
         self.assertAlmostEqual(seen["box"]["state"]["pose"]["position"]["x"], 3, 6)
