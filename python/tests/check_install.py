@@ -7,8 +7,9 @@ from pathlib import Path
 import roboss
 
 OF_EVERY_DEBIAN = re.compile(r"(ld-linux-x86-64|libc|libm|libdl|libpthread|librt|libgcc_s|libstdc\+\+|libz)(\.so|-)")
+# libzstd: the libcrypto of Debian 13 needs it.
 OF_PYTHON = re.compile(r"(libpython3|libexpat|libffi|libssl|libcrypto|libuuid|liblzma|libbz2|libreadline|libtinfo|"
-                       r"libsqlite3|libnsl|libtirpc|libb2|libmpdec)")
+                       r"libsqlite3|libnsl|libtirpc|libb2|libmpdec|libzstd)")
 
 
 def foreign_libraries(process="self", inside=(sys.prefix, sys.base_prefix + "/lib/python3")):
