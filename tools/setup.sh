@@ -69,7 +69,7 @@ install_packages() {
     local words
     words=$("${as_root[@]}" env DEBIAN_FRONTEND=noninteractive LC_ALL=C.UTF-8 \
         apt-get install -q -y --no-install-recommends "$@" 2>&1 |
-        while IFS= read -r line; do printf '%s\n' "$line" >&3 && printf '%s\n' "$line"; done) || explain "$words" "$@"
+        while IFS= read -r line || [[ -n $line ]]; do printf '%s\n' "$line" >&3 && printf '%s\n' "$line"; done) || explain "$words" "$@"
 }
 
 # Ends with the reason why apt-get did not install the packages, from its words.

@@ -325,6 +325,7 @@ Result<> RobotSet::reset_surroundings(RunAccess& run, std::span<const std::size_
         SetSurroundings own;
         if (components.size() == 3) return own.reset = true, own;
         for (const Surrounding which : {Surrounding::kGravity, Surrounding::kWind}) {
+            if (!(run.state(robots_[i]).own.around.*info_of(which).own)) continue;
             Vec3 value = surrounding_of(*model_, run.state(robots_[i]), which);
             for (const std::size_t k : components) value[k] = surrounding_of(*model_, which)[k];
             own.values.*info_of(which).own = value;

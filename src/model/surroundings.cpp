@@ -61,15 +61,21 @@ void apply_surroundings(const Model& model, const RobotType& type, const SetSurr
                         RobotState& state) {
     OwnNumbers own = state.own;
     if (order.reset) own.around = {};
-    if (order.values.gravity) own.around.gravity = order.values.gravity;
-    if (order.values.wind) own.around.wind = order.values.wind;
+    // Adding 0 leaves no -0: numbers that are equal have the same bits, so lanes may share them.
+    if (order.values.gravity) own.around.gravity = *order.values.gravity + Vec3{};
+    if (order.values.wind) own.around.wind = *order.values.wind + Vec3{};
     if (own.around.gravity == model.gravity) own.around.gravity.reset();
     if (own.around.wind == model.wind) own.around.wind.reset();
     set_own(type, std::move(own), state);
 }
 
 bool may_own(const OwnSurroundings& own) {
-    return !fault_in(own);
+    const auto has_minus_zero = [](const std::optional<Vec3>& value) {
+        return value &&
+               ((value->x == 0 && std::signbit(value->x)) || (value->y == 0 && std::signbit(value->y)) ||
+                (value->z == 0 && std::signbit(value->z)));
+    };
+    return !fault_in(own) && !has_minus_zero(own.gravity) && !has_minus_zero(own.wind);
 }
 
 const Vec3& surrounding_of(const Model& model, Surrounding which) {

@@ -81,6 +81,16 @@ TEST_F(SurroundingsTest, AreTheRobotsFromTheOrderOn) {
     EXPECT_EQ(wind_of(*model, own()), Vec3{}) << "no wind is a wind, too";
 }
 
+TEST_F(SurroundingsTest, HaveNoMinusZero) {
+    give({false, {Vec3{-0.0, 0, -1.62}, std::nullopt}});
+    const std::uint64_t given = hash();
+    give({false, {kMoon, std::nullopt}});
+    EXPECT_EQ(hash(), given);
+    EXPECT_FALSE(std::signbit(state.own.around.gravity->x));
+    state.own.around.gravity->x = -0.0;
+    EXPECT_FALSE(travelled().ok()) << "no order gives it";
+}
+
 TEST_F(SurroundingsTest, ThatAreTheModelsAgainLeaveNoTrace) {
     const std::uint64_t before = hash();
     give({false, {model->gravity, model->wind}});

@@ -1,6 +1,7 @@
 // Rotors, thrusters and buoyancy engines against closed forms.
 #include <gtest/gtest.h>
 
+#include <support/own_numbers.h>
 #include <support/robots.h>
 #include <support/simulation.h>
 
@@ -119,6 +120,16 @@ TEST(Rotors, AControlledQuadcopterHoversAndKeepsItsVelocity) {
         transpose_times(attitude(sim), Vec3{sim.states[0].v[3], sim.states[0].v[4], sim.states[0].v[5]});
     EXPECT_NEAR(forward.x, 1, 0.1);
     EXPECT_NEAR(forward.y, 0, 0.02);
+}
+
+TEST(Rotors, AControlledQuadcopterHoversByItsOwnGravity) {
+    World world = empty_world(1e-3, {0, 0, -kG});
+    place(world, quadcopter(true), "quad", {{0, 0, 50}, {}});
+    Simulation sim(world);
+    give(sim, 0, SetSurroundings{false, {Vec3{0, 0, -4}, std::nullopt}});
+    command(sim, "cmd_vel", {0, 0, 0, 0, 0, 0});
+    sim.run(10);
+    EXPECT_NEAR(sim.states[0].v[5], 0, 2e-3);
 }
 
 TEST(Rotors, SwitchedOffTheyFall) {

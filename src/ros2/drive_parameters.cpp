@@ -63,6 +63,11 @@ JointNames joint_names(const std::vector<std::string>& names) {
     return JointNames(names.begin(), names.end());
 }
 
+JointNames both(JointNames first, const JointNames& second) {
+    first.insert(first.end(), second.begin(), second.end());
+    return first;
+}
+
 /// The bounds of a limit and of the one of the other sign, whose default is the first one's negative. Without
 /// the first there are none.
 std::pair<double, double> pair_of_limits(ControllerParameters& p, const std::string& most,
@@ -162,6 +167,8 @@ DriveController read_mecanum_drive(ControllerParameters& p) {
     };
     spec.front_left = wheel("front_left"), spec.front_right = wheel("front_right");
     spec.back_left = wheel("rear_left"), spec.back_right = wheel("rear_right");
+    expect_different(p, "rear_right_wheel_command_joint_name", both(spec.front_left, spec.front_right),
+                     both(spec.back_left, spec.back_right));
     // Both lengths act by half their sum alone, which is this.
     spec.wheel_separation = spec.wheelbase =
         p.length("kinematics.sum_of_robot_center_projection_on_X_Y_axis");
@@ -204,6 +211,10 @@ DriveController read_steering(ControllerParameters& p, std::size_t traction, std
     read_axle(p, "traction_joints_names", "rear_wheels_names", traction, spec.left, spec.right);
     read_axle(p, "steering_joints_names", "front_wheels_names", steering, spec.left_steering,
               spec.right_steering);
+    // An axle with one wheel has it on both sides.
+    expect_different(p, p.has("steering_joints_names") ? "steering_joints_names" : "front_wheels_names",
+                     traction == 1 ? spec.left : both(spec.left, spec.right),
+                     steering == 1 ? spec.left_steering : both(spec.left_steering, spec.right_steering));
     for (const char* key : {"traction_joints_state_names", "steering_joints_state_names",
                             "rear_wheels_state_names", "front_wheels_state_names"})
         p.has_no_effect(key, "the odometry reads the joints that are driven");

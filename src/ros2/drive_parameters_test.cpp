@@ -244,6 +244,27 @@ TEST(DriveParameters, OfOtherDrivesBecomeTheirOwnKinds) {
         EXPECT_TRUE(problems_of({"base", parameters, {}}).empty());
 }
 
+TEST(DriveParameters, AJointThatIsNamedTwiceIsAnErrorOfEachDrive) {
+    EXPECT_EQ(drive_error(typed("mecanum_drive_controller/MecanumDriveController") +
+                          "base: {ros__parameters: {front_left_wheel_command_joint_name: a, "
+                          "front_right_wheel_command_joint_name: b, rear_left_wheel_command_joint_name: a, "
+                          "rear_right_wheel_command_joint_name: c, kinematics: {wheels_radius: 0.1, "
+                          "sum_of_robot_center_projection_on_X_Y_axis: 0.4}}}"),
+              "c.yaml:2: the rear_right_wheel_command_joint_name of 'base' has the joint 'a', which is named "
+              "twice");
+    const auto steering = [](const std::string& type, const std::string& names) {
+        return drive_error(typed(type) + "base: {ros__parameters: {wheelbase: 1, rear_wheel_track: 1, " +
+                           "front_wheel_track: 1, traction_track_width: 1, rear_wheels_radius: 0.3, " +
+                           names + "}}");
+    };
+    EXPECT_EQ(steering("ackermann_steering_controller/AckermannSteeringController",
+                       "traction_joints_names: [a, a], steering_joints_names: [b, c]"),
+              "c.yaml:2: the steering_joints_names of 'base' has the joint 'a', which is named twice");
+    EXPECT_EQ(steering("tricycle_steering_controller/TricycleSteeringController",
+                       "traction_joints_names: [a, b], steering_joints_names: [b]"),
+              "c.yaml:2: the steering_joints_names of 'base' has the joint 'b', which is named twice");
+}
+
 TEST(DriveParameters, ARobotThatSteersAtItsRearIsReported) {
     const Controllers file =
         parsed_drives(typed("ackermann_steering_controller/AckermannSteeringController") +

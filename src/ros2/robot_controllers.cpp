@@ -43,10 +43,9 @@ std::optional<std::vector<JointId>> joints_of(const ControllerEntry& entry, cons
     }
     if (entry.drive) return has_drive(entry, type) ? std::optional(joints) : std::nullopt;
     const TrajectoryJoints able = TrajectoryJoints::of(type);
-    if (!able.channel) return move_on_board(type, joints) ? std::nullopt : std::optional(joints);
-    const bool is_its_own =
-        entry.kind == ControllerEntry::Kind::kTrajectory && std::ranges::is_permutation(joints, able.joints);
-    return is_its_own ? std::optional(joints) : std::nullopt;
+    const bool is_its_own = able.channel && entry.kind == ControllerEntry::Kind::kTrajectory &&
+                            std::ranges::is_permutation(joints, able.joints);
+    return is_its_own || !move_on_board(type, joints) ? std::optional(joints) : std::nullopt;
 }
 
 /// Why no robot has a controller: a joint that is not there, or not free.

@@ -37,7 +37,8 @@ TrajectoryJoints TrajectoryJoints::of(const RobotType& type) {
 
 TrajectoryJoints TrajectoryJoints::of(const RobotType& type, std::vector<JointId> joints) {
     TrajectoryJoints able = of(type);
-    if (!able.channel) able.joints = std::move(joints);
+    if (able.channel && std::ranges::is_permutation(joints, able.joints)) return able;
+    able.channel.reset(), able.joints = std::move(joints);
     return able;
 }
 

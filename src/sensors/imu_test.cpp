@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include <support/own_numbers.h>
 #include <support/robots.h>
 #include <support/simulation.h>
 
@@ -52,6 +53,16 @@ TEST(Imu, ASleepingRobotReadsGravityToo) {
     sim.run(3);
     ASSERT_TRUE(sim.states[0].rest.asleep);
     EXPECT_NEAR(norm(reading_of(sim).specific_force_S - Vec3{0, kG, 0}), 0, 1e-3);
+}
+
+TEST(Imu, ReadsTheGravityOfARobotThatHasItsOwn) {
+    World world = test::empty_world(1e-3, {0, 0, -kG});
+    test::place(world, test::ground(test::surface(0.5)), "ground");
+    test::place(world, box_with_imu(), "box", {{0, 0, 0.05}, {}});
+    test::Simulation sim(world);
+    test::give(sim, 0, SetSurroundings{false, {Vec3{0, 0, -1.62}, std::nullopt}});
+    sim.run(0.5);
+    EXPECT_NEAR(norm(reading_of(sim).specific_force_S - Vec3{0, 1.62, 0}), 0, 1e-3);
 }
 
 TEST(Imu, OnAStaticModelItReadsGravity) {

@@ -91,11 +91,13 @@ std::string describe(const Model& model, const Order& order) {
         for (const LinkParameterValue& one : own->values)
             text += std::string(", ") + info_of(one.parameter).name + " " + std::to_string(one.value);
     }
-    if (const auto* own = std::get_if<SetSurroundings>(&order.action))
+    if (const auto* own = std::get_if<SetSurroundings>(&order.action)) {
+        if (own->reset) text += ", those of the file";
         for (const SurroundingInfo& row : surroundings())
             if (const std::optional<Vec3>& value = own->values.*row.own)
                 text += std::string(", ") + row.name + " " + std::to_string(value->x) + " " +
                         std::to_string(value->y) + " " + std::to_string(value->z);
+    }
     if (const auto* message = std::get_if<Transmit>(&order.action))
         text += ", of " + std::to_string(message->payload.size()) + " bytes";
     if (const auto* command = std::get_if<Command>(&order.action))

@@ -101,7 +101,9 @@ TEST(OwnSurroundings, OfSomeRobotsGiveTheSameBitsInLanes) {
         if (sim.tick % 60 != 7) return;
         for (std::size_t r = 0; r < sim.states.size(); ++r)  // some equal, some their own, some of the world
             if (r % 3 != 0)
-                set_gravity(sim, r, {0, 0, r % 3 == 1 ? -1.62 : -3.0 - 0.5 * static_cast<double>(r)});
+                set_gravity(
+                    sim, r,
+                    {r % 2 == 0 ? -0.0 : 0.0, 0, r % 3 == 1 ? -1.62 : -3.0 - 0.5 * static_cast<double>(r)});
     };
     compare(scattered(with_balls(spider(), 0.02), 13, 0.0), some_differ, 200);
     compare(scattered(solid_box(2, {0.2, 0.3, 0.1}, surface(0.5)), 13, 0.06), some_differ, 200);

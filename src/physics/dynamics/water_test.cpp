@@ -1,6 +1,7 @@
 // Buoyancy, damping in water and added mass against closed forms.
 #include <gtest/gtest.h>
 
+#include <support/own_numbers.h>
 #include <support/robots.h>
 #include <support/simulation.h>
 
@@ -55,6 +56,18 @@ void expect_depth(const ModelSpec& model, double expected, double tolerance) {
     sim.run(30);
     EXPECT_NEAR(sim.states[0].q[2], expected, tolerance) << model.name;
     EXPECT_LT(std::fabs(sim.states[0].v[5]), 1e-7) << model.name;
+}
+
+/// The water that a body displaces weighs by the gravity that the body feels.
+TEST(Water, ABallRisesByItsOwnGravity) {
+    constexpr double kMass = 2, kRadius = 0.1, kOwn = 1.62;
+    World world = sea();
+    place(world, afloat(solid_sphere(kMass, kRadius, surface(0.5))), "ball", {{0, 0, -50}, {}});
+    Simulation sim(world);
+    give(sim, 0, SetSurroundings{false, {Vec3{0, 0, -kOwn}, std::nullopt}});
+    sim.run(1);
+    const double displaced = kWater * 4 / 3 * kPi * kRadius * kRadius * kRadius;
+    EXPECT_NEAR(sim.states[0].v[5], kOwn * (displaced / kMass - 1), 1e-9);
 }
 
 TEST(Water, ABoxFloatsAtItsDepth) {
