@@ -74,12 +74,18 @@ void Spawner::spawn(const Spawn& wanted, const Spawned& then) {
         return then(result_of(si::Result::kOperationFailed, "too many others wait: spawn it later"), "");
     waiting_bytes_ += bytes;
     waits_.in_turn([this, wanted, then, bytes](std::function<void()> over) {
-        waiting_bytes_ -= bytes;
-        const auto addition = std::make_shared<Addition>();
-        addition->then = then, addition->over = std::move(over);
-        const si::Result ready = prepare(wanted, *addition);
-        if (ready.result != si::Result::kOk) return addition->end(ready, "");
-        add(addition);
+        const auto begin = [this, wanted, then, bytes, over = std::move(over)](bool) {
+            waiting_bytes_ -= bytes;
+            const auto addition = std::make_shared<Addition>();
+            addition->then = then, addition->over = over;
+            const si::Result ready = prepare(wanted, *addition);
+            if (ready.result != si::Result::kOk) return addition->end(ready, "");
+            add(addition);
+        };
+        // A node may ask before the face has seen the world, at the start and after a change of the world.
+        const auto is_seen = [this] { return run_.tick() >= 0; };
+        if (is_seen()) return begin(true);
+        waits_.until(is_seen, begin);
     });
 }
 
