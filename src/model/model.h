@@ -294,7 +294,7 @@ struct RobotType {
     std::vector<LinkFluid> fluids;              ///< of the links that float or have added mass
     bool feels_flow = false;  ///< it has `fluids`, or controllers that are force laws; computed by seal()
     bool has_slip = false;    ///< it has wheels that slip (WheelSlip); computed by seal()
-    int wind_index = -1;      ///< in RobotState::onboard, of the wind that it feels; -1: Model::wind
+    int wind_index = -1;      ///< in RobotState::onboard, of the wind that it feels; -1: wind_of()
     std::vector<std::pair<int, int>> self_pairs;  ///< shapes of this robot that may collide with each other
     ShapeGroups shape_groups;                     ///< shapes by bodies; computed by seal()
     std::vector<SensorInfo> sensors;              ///< by the index that find_sensor() gives
@@ -311,7 +311,7 @@ struct RobotType {
     double mass = 0;           ///< kg, of all bodies
     /// m, base frame: holds the scenery whose surfaces its controllers move; empty: there is none.
     Aabb scenery;
-    /// Of a robot with own ones (own_numbers.h): what it feels in place of the Model's. Empty in a Model.
+    /// Own gravity and wind of one robot (own_numbers.h). Empty in the types of a Model.
     OwnSurroundings around;
     std::uint64_t hash = 0;       ///< of the content
     std::uint64_t step_hash = 0;  ///< of what a step reads: no names, topics and sensors; computed by seal()

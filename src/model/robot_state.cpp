@@ -271,7 +271,7 @@ void fields(A& a, Of<A, OwnSurroundings>& around) {
     fields(a, gravity), fields(a, wind);
 }
 
-/// What follows behind the rest of a state: what on-board controllers keep, pulls, radios, own numbers of
+/// These follow behind the rest of a state: memories of on-board controllers, pulls, radios, own numbers of
 /// joints and links, own surroundings.
 struct Parts {
     bool acts = false, pulled = false, talks = false, differs = false, surrounded = false;

@@ -16,7 +16,7 @@ struct Model;
 struct RobotState;
 struct RobotType;
 
-/// What a robot feels in place of the Model's gravity and wind.
+/// Gravity and wind that a robot feels in place of the Model's.
 struct OwnSurroundings {
     std::optional<Vec3> gravity,  ///< m/s^2, world axes; none: Model::gravity
         wind;                     ///< m/s, world axes; none: Model::wind
@@ -26,10 +26,10 @@ struct OwnSurroundings {
     friend bool operator==(const OwnSurroundings&, const OwnSurroundings&) = default;
 };
 
-/// Which of them.
+/// Selects gravity or wind.
 enum class Surrounding : std::uint8_t { kGravity, kWind };
 
-/// A row of the table of these.
+/// Name, unit and place of gravity or of wind.
 struct SurroundingInfo {
     const char *name,  ///< as orders and pages have it
         *unit;         ///< of each component
@@ -38,7 +38,7 @@ struct SurroundingInfo {
 
 /// All rows, in the order of Surrounding.
 std::span<const SurroundingInfo> surroundings();
-/// The row of one.
+/// Its row.
 const SurroundingInfo& info_of(Surrounding which);
 
 /// Gives the robot own gravity, wind, or both; what is not given stays. The wind is the one that <wind> of a
@@ -59,10 +59,11 @@ Result<> check_surroundings(const std::string& robot, const SetSurroundings& ord
 void apply_surroundings(const Model& model, const RobotType& type, const SetSurroundings& order,
                         RobotState& state);
 
-/// True if orders may give a robot these.
+/// True if orders may give a robot these. Bytes may still have what equals the Model's: states are decoded
+/// without a Model.
 bool may_own(const OwnSurroundings& own);
 
-/// What the Model has of one, and what a robot has of it: its own, or the Model's. World axes.
+/// Gravity or wind of the Model; and of a robot: its own, or else the Model's. World axes.
 const Vec3& surrounding_of(const Model& model, Surrounding which);
 const Vec3& surrounding_of(const Model& model, const RobotState& state, Surrounding which);
 

@@ -18,7 +18,7 @@ struct CommandTimeoutSpec {
     double timeout = 0.5;  ///< s without a new command
     JointNames joints;     ///< of the drive: both belong to the robot that has them
 
-    /// What this kind states about itself. No plugin has its names.
+    /// Its row in the table of kinds. No plugin has its names.
     static constexpr OnboardKind kKind{
         .number = 37, .name = "command-timeout", .phrase = "a command timeout", .classes = "", .files = ""};
 

@@ -17,10 +17,10 @@ namespace roboss::ros2 {
 /// wrong becomes the error.
 class ControllerParameters {
   public:
-    /// Of the controller `name` in the file. `values`: its ros__parameters.
+    /// Reads `values`, the ros__parameters of the controller `name` in the file.
     ControllerParameters(std::string file, std::string name, const YAML::Node& values);
 
-    /// Of the controller.
+    /// The name of the controller.
     const std::string& name() const { return name_; }
     /// True if the file gives it.
     bool has(const std::string& key) const { return values_.contains(key); }

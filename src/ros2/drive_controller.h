@@ -13,7 +13,7 @@ namespace roboss::ros2 {
 /// squared.
 using CovarianceDiagonal = std::array<double, 6>;
 
-/// See the top of the file.
+/// A drive of ros2_control, as its parameters describe it.
 struct DriveController {
     OnboardParameters parameters;  ///< wheels, sizes and limits; one of the drives (onboard_kinds)
     std::string command,           ///< topic of the velocity, below the robot's name: "base/cmd_vel"

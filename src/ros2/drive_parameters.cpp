@@ -78,7 +78,7 @@ std::pair<double, double> pair_of_limits(ControllerParameters& p, const std::str
     return {-kInfinite, kInfinite};
 }
 
-/// Accelerations: one for each sense of the velocity's change, whatever the direction of the robot.
+/// Two bounds of acceleration: of a velocity that grows, and of one that falls, ahead and in reverse alike.
 void read_accelerations(ControllerParameters& p, const std::string& group, SpeedLimits& limits) {
     const std::string ahead = group + ".max_acceleration", brake = group + ".max_deceleration",
                       ahead_reverse = group + ".max_acceleration_reverse",

@@ -51,7 +51,7 @@ DriveEntries drives_for(const Controllers& controllers, const ModelSpec& model, 
     return found;
 }
 
-/// How far the steering joints turn to both sides, rad.
+/// The angle that the steering joints reach on both sides, rad.
 double steering_limit(const ModelSpec& model, const AckermannSteeringSpec& spec) {
     double limit = kSteepest;
     for (const JointNames* side : {&spec.left_steering, &spec.right_steering})

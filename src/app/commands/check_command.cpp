@@ -221,7 +221,7 @@ nlohmann::json to_json(const std::vector<PluginReport>& plugins) {
     return list;
 }
 
-/// What of a file of ros2_control has no effect in the world.
+/// Prints the parts of a file of ros2_control that have no effect in the world.
 void print_notices(const ros2::Controllers& controllers, const Model& model) {
     for (const std::string& line : ros2::controller_notices(controllers, model, ros2::robot_names(model, "")))
         say("{}\n", line);

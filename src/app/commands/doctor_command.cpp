@@ -77,7 +77,7 @@ Item system() {
                                   kernel.sysname, kernel.release, kernel.machine)};
 }
 
-/// What a processor of ARM says about itself: the board, or else its maker's number and its own.
+/// A processor of ARM has no name: the board's, the maker's number and its own stand for it.
 std::string arm_processor() {
     std::string board;
     std::getline(std::ifstream("/sys/firmware/devicetree/base/model"), board, '\0');

@@ -41,8 +41,9 @@ bool rests_in_lanes(const Model& model, const RobotType& type, const RobotState&
 
 bool LaneSteppers::take(const Model& model, const RobotType& type, const RobotState& state) const {
     if (lanes == nullptr) return false;
-    // Lanes have one set of numbers for all, and leave out robots of another gravity; in floats each robot
-    // has a try by itself behind them.
+    // Lanes compute with the numbers of one type, so a robot with own numbers of joints or links is stepped
+    // by itself. Those with own gravity or wind share lanes with robots that have the same. In floats each
+    // robot has a try by itself behind the lanes.
     const bool differs = !state.own.joints.empty() || !state.own.links.empty();
     if (!in_floats() && differs) return false;
     return fits_lanes(type, state) || (!in_floats() && rests_in_lanes(model, type, state));
