@@ -54,6 +54,8 @@ def test_what_is_given_back_leaves_no_trace():
     assert np.array_equal(robots.surroundings["wind"], np.tile([0, 0, 3], (4, 1)))
     robots.surroundings.reset()
     assert robots.simulation.state_hash == before
+    robots.surroundings.reset("x")  # none has any of its own
+    assert robots.simulation.state_hash == before
     robots.surroundings["gravity"] = [0, 0, -1.62]
     robots.surroundings["gravity"] = robots.simulation.world.gravity
     assert robots.simulation.state_hash == before

@@ -321,17 +321,19 @@ Result<> RobotSet::set_surroundings(RunAccess& run, std::span<const std::size_t>
 }
 
 Result<> RobotSet::reset_surroundings(RunAccess& run, std::span<const std::size_t> components) const {
-    return change(run, 1, [&](std::size_t i, std::size_t) {
+    std::vector<Order> orders;
+    for (const RobotId robot : robots_) {
         SetSurroundings own;
-        if (components.size() == 3) return own.reset = true, own;
+        own.reset = components.size() == 3;
         for (const Surrounding which : {Surrounding::kGravity, Surrounding::kWind}) {
-            if (!(run.state(robots_[i]).own.around.*info_of(which).own)) continue;
-            Vec3 value = surrounding_of(*model_, run.state(robots_[i]), which);
-            for (const std::size_t k : components) value[k] = surrounding_of(*model_, which)[k];
+            std::optional<Vec3> value = run.state(robot).own.around.*info_of(which).own;
+            if (own.reset || !value) continue;
+            for (const std::size_t k : components) (*value)[k] = surrounding_of(*model_, which)[k];
             own.values.*info_of(which).own = value;
         }
-        return own;
-    });
+        if (own.reset || !own.values.empty()) orders.push_back({run.tick(), ClientId(0U), 0, robot, own});
+    }
+    return change_all(run, orders);
 }
 
 Result<> RobotSet::set_joint_positions(RunAccess& run, std::span<const double> positions) const {
