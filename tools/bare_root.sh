@@ -179,7 +179,7 @@ root=$(realpath "$root")
 copy_settings
 copy_repository
 [[ $# -gt 0 ]] || exit 0
-# The copy has no .git, so it is told its commit (src/app/CMakeLists.txt).
+# The copy has no .git: its build takes the commit from the environment (src/app/CMakeLists.txt).
 ROBOSS_COMMIT=${ROBOSS_COMMIT:-$(git -c safe.directory="*" -C "$here/.." describe --always --dirty --exclude='*' 2>/dev/null || true)}
 export ROBOSS_COMMIT
 # In the background, for a shell hears signals while it waits, and not before its child ends. unshare itself blocks SIGTERM.

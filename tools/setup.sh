@@ -62,14 +62,23 @@ install_packages() {
         as_root=(sudo)
     fi
     printf 'setup: installing %s\n' "$*"
-    exec 3>&1
     # An update that fails in part (a dead third-party source) need not keep the packages away; the install tells.
     "${as_root[@]}" apt-get update -q || printf 'setup: apt-get update failed, trying with the lists that are there\n' >&2
     # The words are kept in memory: on a full disk, a file of them would be empty.
     local words
-    words=$("${as_root[@]}" env DEBIAN_FRONTEND=noninteractive LC_ALL=C.UTF-8 \
-        apt-get install -q -y --no-install-recommends "$@" 2>&1 |
-        while IFS= read -r line || [[ -n $line ]]; do printf '%s\n' "$line" >&3 && printf '%s\n' "$line"; done) || explain "$words" "$@"
+    {
+        words=$("${as_root[@]}" env DEBIAN_FRONTEND=noninteractive LC_ALL=C.UTF-8 \
+            apt-get install -q -y --no-install-recommends "$@" 2>&1 | show_and_pass) || explain "$words" "$@"
+    } 3>&1
+}
+
+# Prints each line to descriptor 3 at once, and passes it on.
+show_and_pass() {
+    local line
+    while IFS= read -r line || [[ -n $line ]]; do
+        printf '%s\n' "$line" >&3
+        printf '%s\n' "$line"
+    done
 }
 
 # Ends with the reason why apt-get did not install the packages, from its words.

@@ -71,9 +71,8 @@ void apply_surroundings(const Model& model, const RobotType& type, const SetSurr
 
 bool may_own(const OwnSurroundings& own) {
     const auto has_minus_zero = [](const std::optional<Vec3>& value) {
-        return value &&
-               ((value->x == 0 && std::signbit(value->x)) || (value->y == 0 && std::signbit(value->y)) ||
-                (value->z == 0 && std::signbit(value->z)));
+        const auto is_minus_zero = [](double x) { return x == 0 && std::signbit(x); };
+        return value && (is_minus_zero(value->x) || is_minus_zero(value->y) || is_minus_zero(value->z));
     };
     return !fault_in(own) && !has_minus_zero(own.gravity) && !has_minus_zero(own.wind);
 }

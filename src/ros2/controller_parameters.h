@@ -1,5 +1,5 @@
-// ControllerParameters: the parameters of one controller of a file of ros2_control, by name and type. Those
-// that nobody asks for are reported.
+// ControllerParameters: the parameters of one controller of a file of ros2_control, by name and type.
+// Parameters that no drive reads are reported.
 #pragma once
 
 #include <map>
@@ -57,14 +57,14 @@ class ControllerParameters {
     void has_no_effect(const std::string& key, const std::string& why);
     /// A notice: "KEY of 'NAME' " + what.
     void notice(const std::string& key, const std::string& what);
-    /// The controller cannot be had here.
+    /// RoBOSS has no such controller.
     void refuse(const std::string& key, const std::string& why);
 
-    /// What is wrong; none: nothing.
+    /// The first fault of a parameter; nullopt: all are right.
     const std::optional<Error>& error() const { return error_; }
-    /// A line that says why the controller cannot be had; empty: it can.
+    /// A line that says why RoBOSS has no such controller; empty: it has one.
     const std::string& refusal() const { return refusal_; }
-    /// Notices, one line each, also of parameters that nobody has asked for.
+    /// Notices, one line each. Parameters that were not read get one, too.
     std::vector<std::string> take_notices();
 
   private:

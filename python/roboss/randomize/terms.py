@@ -84,8 +84,7 @@ class NumberTerm(Term):
         units = own.units(self.parameter)  # raises: there is no such number
         for pattern in self.parts:
             if not any(fnmatchcase(name, pattern) for name in names):
-                raise unknown("component" if self.kind == "surroundings" else self.kind, pattern, names,
-                              f" (term '{self.name}')")
+                raise unknown(_part_of(self.kind), pattern, names, f" (term '{self.name}')")
         return [(name, "1" if self.operation == "scale" else unit) for name, unit in zip(names, units)
                 if any(fnmatchcase(name, pattern) for pattern in self.parts)]
 
@@ -274,6 +273,11 @@ def numbers_of(robots: Robots, kind: str) -> Union[JointParameters, LinkParamete
     return robots.parameters if kind == "joint" else robots.link_parameters
 
 
+def _part_of(kind: Kind) -> str:
+    """The word for a part of such a number."""
+    return "component" if kind == "surroundings" else kind
+
+
 def _number(kind: Kind, parameter: str, distribution: Distribution, operation: str,
             parts: Union[str, Iterable[str]], when: When, shared: bool, name: Optional[str]) -> Term:
     parameter = text("parameter", parameter)
@@ -283,7 +287,7 @@ def _number(kind: Kind, parameter: str, distribution: Distribution, operation: s
     if operation == "scale" and not (_distribution(distribution).low >= 0).all():
         raise ArgumentError(f"term '{own}': a factor that can be {distribution.low.tolist()}",
                             "give a distribution from 0 on, as normal(1, 0.1, low=0)", "negative-scale")
-    part = "component" if kind == "surroundings" else kind
+    part = _part_of(kind)
     patterns = tuple(names_of(f"{part}s", parts))
     if not patterns:
         raise ArgumentError(f"term '{own}' for no {part}", "give names or patterns", "no-part")

@@ -116,9 +116,9 @@ Item memory() {
     const auto read = [](const char* key) {
         return std::atof(value_in("/proc/meminfo", key, ':').c_str()) / kKiB_of_GiB;
     };
-    const double available = read("MemAvailable");
-    if (read("MemTotal") == 0) return {"memory", "unknown (/proc/meminfo cannot be read)"};
-    Item item{"memory", fmt::format("{:.1f} GiB, {:.1f} available", read("MemTotal"), available)};
+    const double total = read("MemTotal"), available = read("MemAvailable");
+    if (total == 0) return {"memory", "unknown (/proc/meminfo cannot be read)"};
+    Item item{"memory", fmt::format("{:.1f} GiB, {:.1f} available", total, available)};
     if (available < kFew_GiB) {
         item.problem = "little memory is left";
         item.remedy = "end other programs";

@@ -26,10 +26,9 @@ void add_angular_row(const Model& model, const Contact& c, const SurfacePair& su
                      std::span<const RobotWork> robots, std::span<const int> offsets, IslandRows& rows) {
     if (surface.torsional <= 0 && surface.rolling <= 0) return;
     const ContactSide<double> a = side_of(robots, offsets, c.robot_a, c.body_a);
-    const bool has_b = c.robot_b >= 0;
     const ContactSide<double> b =
-        has_b ? side_of(robots, offsets, c.robot_b, c.body_b) : ContactSide<double>{};
-    const double inverse_effective_mass = mobility(a) + (has_b ? mobility(b) : 0.0);
+        c.robot_b >= 0 ? side_of(robots, offsets, c.robot_b, c.body_b) : ContactSide<double>{};
+    const double inverse_effective_mass = mobility(a) + mobility(b);
     if (inverse_effective_mass <= 0) return;  // on slides alone, neither body can turn
     ContactFrame frame{c.normal, {}, {}};
     tangents(c.normal, frame.t1, frame.t2);
@@ -38,7 +37,7 @@ void add_angular_row(const Model& model, const Contact& c, const SurfacePair& su
     row.first = rows.columns.size();
     add_columns(a, 1.0, frame, rows.columns);
     const std::size_t middle = rows.columns.size();
-    if (has_b) add_columns(b, -1.0, frame, rows.columns);
+    add_columns(b, -1.0, frame, rows.columns);
     if (c.robot_b == c.robot_a) rows.columns.merge(row.first, middle);
     row.last = rows.columns.size();
     row.torsional = surface.torsional;

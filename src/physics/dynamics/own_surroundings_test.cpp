@@ -39,11 +39,7 @@ ModelSpec sail(double linear) {
 /// Boxes on each other, and a few beside them.
 World piled(const char* setting) {
     World world = empty_world(2e-3);
-    if (*setting != '\0') {
-        AccuracySpec accuracy;
-        accuracy.setting = setting;
-        world.accuracy.push_back(accuracy);
-    }
+    world.accuracy.push_back({setting, {}, {}});
     place(world, ground(surface(0.6)), "ground");
     for (int i = 0; i < 12; ++i)
         place(world, solid_box(1, {0.2, 0.2, 0.2}, surface(0.6)), "box_" + std::to_string(i),
@@ -67,7 +63,7 @@ std::vector<std::pair<std::string, World>> worlds_of_all_kinds() {
     return all;
 }
 
-/// Runs the world for a while, gives all robots gravity and wind, and goes on beside a world whose file has
+/// Runs the world for a while, gives all robots gravity and wind, and continues beside a world whose file has
 /// them, from the same state.
 void expect_the_run_of_such_a_file(const std::string& name, World world, Precision precision) {
     SCOPED_TRACE(name + (precision == Precision::kFloat ? ", floats" : ""));
@@ -156,9 +152,7 @@ TEST(OwnSurroundings, APendulumSwingsWithThePeriodOfItsGravity) {
 TEST(OwnSurroundings, ABoxPressesWithTheWeightOfItsGravity) {
     for (const char* setting : {"standard", "fast"}) {
         World world = empty_world(1e-3, {0, 0, -9.81});
-        AccuracySpec accuracy;
-        accuracy.setting = setting;
-        world.accuracy.push_back(accuracy);
+        world.accuracy.push_back({setting, {}, {}});
         place(world, ground(surface(1.0)), "ground");
         for (int i = 0; i < 2; ++i)
             place(world, solid_box(2, {0.2, 0.2, 0.1}, surface(0.8)), "box_" + std::to_string(i),
